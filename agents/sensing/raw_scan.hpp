@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/base/time.hpp"
+#include "common/grid/pose2.hpp"
+
+namespace lifeline::sensing {
+
+/// How the head is held, as an attitude sensor says. Right-handed: x forward, y left, z up.
+struct Attitude {
+  double roll_rad = 0.0;   ///< about x
+  double pitch_rad = 0.0;  ///< about y, nose down positive
+  double yaw_rad = 0.0;    ///< about z, counter-clockwise, from an arbitrary zero
+};
+
+/// One sweep of a lidar as its driver or a recording gives it.
+struct RawScan {
+  Timestamp stamp{};             ///< of the first beam, the sensor's clock
+  Duration sweep_time{};         ///< from first to last beam, 0 = all at once
+  double first_angle_rad = 0.0;  ///< of beam 0 in the laser frame, counter-clockwise
+  double angle_step_rad = 0.0;   ///< from beam to beam; negative for a clockwise lidar
+  double range_min_m = 0.0;
+  double range_max_m = 0.0;     ///< at or beyond: nothing was hit
+  std::vector<float> ranges_m;  ///< any value at all: 0, NaN and infinities mean "no reading"
+
+  std::optional<Attitude> attitude;  ///< at the stamp; only differences of its yaw mean anything
+  std::optional<Pose2>
+      T_odom_head;  ///< dead reckoning (wheels, legs), in a drifting frame of its own
+  std::optional<Pose2> T_world_head_truth;  ///< for judging only: no algorithm reads it
+};
+
+}  // namespace lifeline::sensing

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/grid/tsd_grid.hpp"
+
+namespace lifeline {
+
+enum class Occupancy : std::uint8_t { unknown = 0, free = 1, occupied = 2 };
+
+/// A dense occupancy grid. Cell (column, row) has its lower left corner at origin + (column, row) *
+/// cell_size_m; rows go up.
+struct OccupancyGrid {
+  double cell_size_m = 0.05;
+  Eigen::Vector2d origin_m{0.0, 0.0};  ///< lower left corner in the map's frame
+  int columns = 0;
+  int rows = 0;
+  std::vector<Occupancy> cells;  ///< columns * rows, row by row from below
+
+  [[nodiscard]] bool contains(int column, int row) const {
+    return column >= 0 && row >= 0 && column < columns && row < rows;
+  }
+  /// Unknown outside of the grid.
+  [[nodiscard]] Occupancy at(int column, int row) const {
+    return contains(column, row) ? cells[index(column, row)] : Occupancy::unknown;
+  }
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+};
+
+/// Eq. 6: occupied where the TSD changes its sign to a neighbour in x or y, else free where it is
+/// positive, else unknown. The grid covers all tiles of `tsd`, in its frame. A cell that is exactly
+/// 0 lies on a surface and counts as occupied.
+[[nodiscard]] OccupancyGrid to_occupancy(const TsdGrid& tsd);
+
+/// How many cells are free or occupied: the sum of Eq. 11.
+[[nodiscard]] std::size_t known_cells(const OccupancyGrid& grid);
+
+}  // namespace lifeline

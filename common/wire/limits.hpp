@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+
+namespace lifeline::wire {
+
+// The bounds of idl/*.idl. A golden test compares both.
+inline constexpr std::size_t kMaxIdLength = 32;
+inline constexpr std::size_t kMaxMissionIdLength = 32;
+inline constexpr std::size_t kMaxSignature = 64;
+inline constexpr std::size_t kMaxScanBeams = 640;
+inline constexpr std::size_t kMaxTilePayload = 8192;
+inline constexpr std::size_t kMaxTilesPerRequest = 256;
+inline constexpr std::size_t kMaxMembers = 64;
+inline constexpr std::size_t kMaxCandidates = 16;
+inline constexpr std::size_t kMaxReason = 256;
+inline constexpr std::size_t kMaxLayers = 64;
+inline constexpr std::size_t kMaxPeers = 64;
+inline constexpr std::size_t kMaxAlertText = 128;
+
+}  // namespace lifeline::wire

@@ -1,0 +1,71 @@
+# How every library, program and test of the project is declared.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# Code built from IDL and Protobuf changes with the tool that made it: kept out of the source tree.
+set(LIFELINE_GENERATED_DIR "${PROJECT_BINARY_DIR}/generated")
+
+# Fused multiply-add would make results differ between machines; the maps must not.
+add_compile_options(-ffp-contract=off)
+
+find_program(LIFELINE_CCACHE ccache)
+if(LIFELINE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${LIFELINE_CCACHE}")
+endif()
+find_program(LIFELINE_MOLD mold)
+if(LIFELINE_MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+function(lifeline_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+  if(LIFELINE_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# lifeline_library(NAME SOURCES a.cpp ... [PUBLIC libs...] [PRIVATE libs...]): target lifeline_NAME, alias lifeline::NAME.
+function(lifeline_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(lifeline_${name} STATIC ${arg_SOURCES})
+  add_library(lifeline::${name} ALIAS lifeline_${name})
+  target_include_directories(lifeline_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(lifeline_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  lifeline_warnings(lifeline_${name})
+endfunction()
+
+# lifeline_program(NAME SOURCES a.cpp ... LINK libs...): program NAME in build/<preset>/bin.
+function(lifeline_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${arg_LINK})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+  lifeline_warnings(${name})
+endfunction()
+
+# lifeline_test(NAME LINK libs... [LABELS l...] [SOURCES ...]): one GoogleTest program of the calling folder's *_test.cpp
+# files (or SOURCES), each test registered with CTest under its own name.
+function(lifeline_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  if(NOT arg_SOURCES)
+    file(GLOB arg_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp")
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  if(NOT arg_LABELS)
+    set(arg_LABELS unit)
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gmock_main)
+  target_compile_definitions(${name} PRIVATE
+    LIFELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LIFELINE_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  lifeline_warnings(${name})
+  include(GoogleTest)
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+endfunction()
