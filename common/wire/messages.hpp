@@ -2,7 +2,7 @@
 
 // What goes between processes, as plain structs: one per topic of docs/topics.md, field by field as
 // in idl/*.idl. They hold whatever the sender said; what may be believed is checked by the reader
-// (common/wire/accept.hpp).
+// (common/sharing/accept.hpp).
 
 #include <array>
 #include <cstdint>

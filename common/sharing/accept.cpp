@@ -1,0 +1,71 @@
+#include "common/sharing/accept.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "common/grid/tile_index.hpp"
+#include "common/wire/limits.hpp"
+
+namespace lifeline::sharing {
+namespace {
+
+// Further apart no two maps of one mission begin; fusing in 64 bits needs a bound
+// (docs/decisions/0003).
+constexpr std::int64_t kMaxTranslationUm = 2'000'000'000;
+
+bool is_rotation(const wire::FixedTransform& transform) {
+  const double c = static_cast<double>(transform.cos_q30) / wire::FixedTransform::kOne;
+  const double s = static_cast<double>(transform.sin_q30) / wire::FixedTransform::kOne;
+  return std::abs(c * c + s * s - 1.0) < 1e-6;
+}
+
+}  // namespace
+
+Result<void> check_envelope(const wire::Envelope& envelope, std::string_view mission_id) {
+  if (envelope.protocol_version != wire::kProtocolVersion) {
+    return fail(ErrorCode::unsupported,
+                "sample of protocol version {}, ours is {}; run the same release everywhere",
+                envelope.protocol_version, wire::kProtocolVersion);
+  }
+  if (envelope.mission_id != mission_id) {
+    return fail(ErrorCode::bad_data, "sample of another mission");
+  }
+  if (auto sender = AgentId::parse(envelope.sender_id); !sender) return forward_error(sender);
+  return {};
+}
+
+Result<LayerKey> to_layer_key(const wire::LayerName& name) {
+  auto agent_id = AgentId::parse(name.agent_id);
+  if (!agent_id) return forward_error(agent_id);
+  return LayerKey{*std::move(agent_id), MapId{name.map_id}, Floor{name.floor}};
+}
+
+wire::LayerName to_layer_name(const LayerKey& key) {
+  return {key.agent_id.text(), key.map_id.value, key.floor.value};
+}
+
+Result<void> check_directive(const wire::MergeDirective& directive) {
+  if (directive.members.size() > wire::kMaxMembers || directive.own_weight_permille > 1000) {
+    return fail(ErrorCode::bad_data,
+                "directive {} has {} members and w_T1 {}/1000; limits are {} and 1000/1000",
+                directive.epoch, directive.members.size(), directive.own_weight_permille,
+                wire::kMaxMembers);
+  }
+  std::set<LayerKey> seen;
+  for (const auto& member : directive.members) {
+    auto key = to_layer_key(member.layer);
+    if (!key) return forward_error(key);
+    const auto& transform = member.T_common_map;
+    if (!seen.insert(*key).second || !is_rotation(transform) ||
+        std::abs(transform.x_um) > kMaxTranslationUm ||
+        std::abs(transform.y_um) > kMaxTranslationUm) {
+      return fail(ErrorCode::bad_data,
+                  "directive {}: member {} stands twice or its transform is not rigid",
+                  directive.epoch, to_string(*key));
+    }
+  }
+  return {};
+}
+
+}  // namespace lifeline::sharing

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string_view>
+
+#include "common/base/ids.hpp"
+#include "common/base/result.hpp"
+#include "common/wire/messages.hpp"
+
+namespace lifeline::sharing {
+
+/// Whether a sample may be looked at at all: our protocol version, our mission, a sender with a
+/// valid name. A sample of another mission is refused like a broken one: neither may touch what we
+/// hold.
+[[nodiscard]] Result<void> check_envelope(const wire::Envelope& envelope,
+                                          std::string_view mission_id);
+
+/// The layer that a sample names, once its agent id is valid.
+[[nodiscard]] Result<LayerKey> to_layer_key(const wire::LayerName& name);
+[[nodiscard]] wire::LayerName to_layer_name(const LayerKey& key);
+
+/// Checks what a directive claims: members at most, each a valid layer that stands in it once,
+/// rotations that are rotations (cos^2 + sin^2 = 1 within 1e-6), translations within 2 km, w_T1 in
+/// [0, 1].
+[[nodiscard]] Result<void> check_directive(const wire::MergeDirective& directive);
+
+}  // namespace lifeline::sharing

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/ids.hpp"
+#include "common/base/time.hpp"
+#include "common/wire/messages.hpp"
+
+namespace lifeline::sharing {
+
+enum class Presence { fresh, late, lost };
+
+/// How long a sender may be silent, by our own clock (not by what the middleware says).
+inline constexpr Duration kLateAfter = std::chrono::seconds(2);
+inline constexpr Duration kLostAfter = std::chrono::seconds(5);
+
+/// The newest status of everybody heard, and since when they are silent. One owner, not
+/// thread-safe.
+class Roster {
+ public:
+  struct Entry {
+    wire::AgentStatus status;
+    SteadyTime heard_at;
+    /// Another living process with the same id, if one was heard while this one was.
+    bool contested = false;
+  };
+
+  /// Takes in a status whose envelope was accepted. False: older than what is held, or not of its
+  /// sender: ignored.
+  bool hear(const wire::AgentStatus& status, SteadyTime now);
+
+  [[nodiscard]] const std::map<std::string, Entry>& entries() const { return entries_; }
+  /// nullptr when nothing was ever heard of `agent_id`.
+  [[nodiscard]] const Entry* find(const std::string& agent_id) const;
+  [[nodiscard]] static Presence presence(const Entry& entry, SteadyTime now);
+  /// Ids of everybody who is not lost.
+  [[nodiscard]] std::vector<std::string> present(SteadyTime now) const;
+
+ private:
+  std::map<std::string, Entry> entries_;
+};
+
+}  // namespace lifeline::sharing
