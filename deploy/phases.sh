@@ -1,0 +1,36 @@
+# To be sourced: runs the phases of a longer job, says which one is running and how long each took.
+
+phase_names=()
+phase_seconds=()
+
+# phase NAME COMMAND...: stops the script with status 1 when the command fails.
+phase() {
+  local name="$1" begin="$SECONDS"
+  shift
+  printf '\n== %s\n' "$name"
+  if ! "$@"; then
+    printf '== %s: FAILED after %d s\n' "$name" "$((SECONDS - begin))"
+    exit 1
+  fi
+  phase_names+=("$name")
+  phase_seconds+=("$((SECONDS - begin))")
+  printf '== %s: done in %d s\n' "$name" "$((SECONDS - begin))"
+}
+
+print_phases() {
+  printf '\n'
+  local i
+  for i in "${!phase_names[@]}"; do
+    printf '%6d s  %s\n' "${phase_seconds[i]}" "${phase_names[i]}"
+  done
+}
+
+# How many compilers to run at once: one a core, but no more than memory allows (PCL takes 1.5 GB).
+parallel_jobs() {
+  local cores memory_kb fitting
+  cores="$(nproc)"
+  memory_kb="$(awk '/^MemAvailable:/ {print $2}' /proc/meminfo)"
+  fitting=$((memory_kb / 1500000))
+  ((fitting < 1)) && fitting=1
+  echo $((cores < fitting ? cores : fitting))
+}

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Installs the packages of packages.txt that are missing, by apt, as root or through sudo.
+# Nothing missing: says nothing, needs no network and no rights.
+set -euo pipefail
+list="$(dirname "${BASH_SOURCE[0]}")/packages.txt"
+
+stop() {
+  printf 'setup: %s\n' "$*" >&2
+  exit 1
+}
+
+# Those packages of the list that are not installed, one a line.
+missing_packages() {
+  comm -23 <(sed 's/#.*//; s/[[:space:]]//g; /^$/d' "$list" | sort -u) \
+    <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
+}
+
+# apt COMMAND...: no questions, waits for another apt to finish, keeps quiet unless it fails.
+as_root=()
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 apt-get -q -y \
+    -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 "$@" >"$log" 2>&1
+}
+
+# The first complaint that apt left in the log.
+complaint() {
+  grep -m 1 -E '^(E|Err|W):' "$log" || tail -n 1 "$log"
+}
+
+command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
+  stop "this machine has no apt: install what deploy/packages.txt names (Debian 12 packages) by hand"
+mapfile -t missing < <(missing_packages)
+((${#missing[@]})) || exit 0
+
+if ((EUID != 0)); then
+  command -v sudo >/dev/null ||
+    stop "neither root nor sudo: as root, run: apt-get install --no-install-recommends ${missing[*]}"
+  as_root=(sudo)
+fi
+log="$(mktemp)"
+trap 'rm -f "$log"' EXIT
+
+printf 'setup: installing %d missing Debian packages and what they need, by apt%s (minutes):\n  %s\n' \
+  "${#missing[@]}" "${as_root:+ through sudo}" "${missing[*]}"
+# Stale or unreachable package lists matter only if the installation then fails.
+apt update || true
+if ! apt install --no-install-recommends "${missing[@]}"; then
+  reason="$(complaint)"
+  mapfile -t missing < <(missing_packages)
+  stop "could not install ${missing[*]} - apt says: ${reason:-nothing}; is the network up?"
+fi
+echo "setup: done"
