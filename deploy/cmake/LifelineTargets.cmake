@@ -49,6 +49,9 @@ endfunction()
 # lifeline_test(NAME LINK libs... [LABELS l...] [SOURCES ...]): one GoogleTest program of the calling folder's *_test.cpp
 # files (or SOURCES), each test registered with CTest under its own name.
 function(lifeline_test name)
+  if(NOT LIFELINE_TESTS)
+    return()
+  endif()
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT arg_SOURCES)
     file(GLOB arg_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp")
@@ -65,7 +68,26 @@ function(lifeline_test name)
   target_compile_definitions(${name} PRIVATE
     LIFELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LIFELINE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   lifeline_warnings(${name})
+  if(threads IN_LIST arg_LABELS)  # the ones that the thread sanitizer build is for
+    if(NOT TARGET lifeline_thread_tests)
+      add_custom_target(lifeline_thread_tests)
+    endif()
+    add_dependencies(lifeline_thread_tests ${name})
+  endif()
   include(GoogleTest)
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+endfunction()
+
+# lifeline_fuzzer(NAME_fuzz SOURCES a.cpp ... LINK libs...): a libFuzzer program in build/fuzz/bin; nothing in other presets.
+function(lifeline_fuzzer name)
+  if(NOT LIFELINE_FUZZ)
+    return()
+  endif()
+  lifeline_program(${name} ${ARGN})
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  if(NOT TARGET lifeline_fuzzers)
+    add_custom_target(lifeline_fuzzers)
+  endif()
+  add_dependencies(lifeline_fuzzers ${name})
 endfunction()

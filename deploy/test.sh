@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Builds and runs the tests. --deep adds the sanitizer builds and a short run of every fuzz target.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source deploy/phases.sh
+
+deep=no
+for argument in "$@"; do
+  case "$argument" in
+    --deep) deep=yes ;;
+    *)
+      echo "lifeline test: unknown option '$argument'; the only one is --deep" >&2
+      exit 2
+      ;;
+  esac
+done
+
+jobs=1
+fuzz_seconds=20
+
+build() {  # PRESET [TARGET...]
+  local preset="$1"
+  shift
+  cmake --preset "$preset" --log-level=WARNING &&
+    cmake --build --preset "$preset" -j "$jobs" ${1:+--target "$@"}
+}
+
+run_tests() {  # PRESET [CTEST OPTIONS...]
+  local preset="$1"
+  shift
+  ctest --preset "$preset" -j "$jobs" --no-tests=error "$@" | tee "build/$preset-tests.log"
+  return "${PIPESTATUS[0]}"
+}
+
+# Every fuzz target for a while, each on what it found in earlier runs (build/fuzz/corpus/).
+run_fuzzers() {
+  local fuzzer name found=no
+  for fuzzer in build/fuzz/bin/*_fuzz; do
+    [[ -x "$fuzzer" ]] || continue
+    found=yes
+    name="${fuzzer##*/}"
+    mkdir -p "build/fuzz/corpus/$name" "build/fuzz/failures"
+    local seeds="tests/fuzz/${name%_fuzz}/seeds" log="build/fuzz/$name.log"
+    [[ -d "$seeds" ]] || seeds=""
+    if ! "$fuzzer" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+      -artifact_prefix="build/fuzz/failures/$name-" "build/fuzz/corpus/$name" ${seeds:+"$seeds"} >"$log" 2>&1; then
+      tail -n 40 "$log"
+      echo "$name: failed; its input is in build/fuzz/failures/"
+      return 1
+    fi
+    printf '%s: %s runs in %d s, nothing found\n' "$name" \
+      "$(awk '/stat::number_of_executed_units/ {print $2}' "$log")" "$fuzz_seconds"
+  done
+  [[ "$found" == yes ]] || { echo "no fuzz target was built"; return 1; }
+}
+
+phase "packages" deploy/setup.sh
+jobs="$(parallel_jobs)"
+phase "build (dev)" build dev
+phase "tests (dev)" run_tests dev
+if [[ "$deep" == yes ]]; then
+  phase "build (address and undefined behaviour sanitizers)" build asan-ubsan
+  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan -LE 'system|bench'
+  phase "build (thread sanitizer)" build tsan lifeline_thread_tests
+  phase "tests (thread sanitizer)" run_tests tsan -L threads
+  phase "build (fuzz targets)" build fuzz lifeline_fuzzers
+  phase "fuzz targets" run_fuzzers
+fi
+
+print_phases
+grep -h 'tests passed' build/dev-tests.log
