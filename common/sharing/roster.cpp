@@ -6,6 +6,7 @@ bool Roster::hear(const wire::AgentStatus& status, SteadyTime now) {
   if (status.agent_id != status.envelope.sender_id) return false;
   const auto found = entries_.find(status.agent_id);
   if (found == entries_.end()) {
+    if (entries_.size() >= kMaxEntries) return false;
     entries_.insert({status.agent_id, {status, now, false}});
     return true;
   }

@@ -22,6 +22,8 @@ inline constexpr Duration kLostAfter = std::chrono::seconds(5);
 /// thread-safe.
 class Roster {
  public:
+  static constexpr std::size_t kMaxEntries = 64;
+
   struct Entry {
     wire::AgentStatus status;
     SteadyTime heard_at;

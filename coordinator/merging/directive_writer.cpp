@@ -35,6 +35,16 @@ bool DirectiveWriter::update(const MergePlan& plan) {
   return true;
 }
 
+bool DirectiveWriter::outrank(Epoch heard) {
+  // No coordinator writes a million directives in a mission: such an epoch is a broken or hostile
+  // status.
+  constexpr std::uint64_t kMaxLead = 1'000'000;
+  if (heard.value <= directive_.epoch || heard.value - directive_.epoch > kMaxLead) return false;
+  const bool speaks = !directive_.members.empty();
+  directive_.epoch = speaks ? heard.value + 1 : heard.value;
+  return speaks;
+}
+
 bool DirectiveWriter::says_the_same(const std::vector<wire::DirectiveMember>& members) const {
   const auto same = [&](const wire::DirectiveMember& old, const wire::DirectiveMember& now) {
     const Pose2 moved =

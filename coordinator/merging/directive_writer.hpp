@@ -22,6 +22,10 @@ class DirectiveWriter {
   /// True when the plan made a new directive (its envelope is still to be filled).
   bool update(const MergePlan& plan);
 
+  /// Makes the directive's epoch larger than `heard`, an epoch that some helmet follows and that we
+  /// did not write. True when there is a directive that must be sent again under its new epoch.
+  bool outrank(Epoch heard);
+
   /// Epoch 0 and no members until the first update that says something.
   [[nodiscard]] const wire::MergeDirective& directive() const { return directive_; }
 
