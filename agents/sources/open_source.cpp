@@ -1,0 +1,37 @@
+#include "agents/sources/open_source.hpp"
+
+#include <utility>
+
+#include "agents/sources/carmen_source.hpp"
+#include "agents/sources/source_spec.hpp"
+
+namespace lifeline::sources {
+namespace {
+
+Result<std::unique_ptr<sensing::ScanSource>> open_kind(const SourceSpec& spec) {
+  if (spec.kind == "carmen") return open_carmen_source(spec);
+  return fail(ErrorCode::wrong_use, "source '{}:{}': unknown kind '{}'; there are: carmen",
+              spec.kind, spec.target, spec.kind);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<sensing::ScanSource>> open_source(std::string_view source,
+                                                         SourcePace default_pace,
+                                                         std::stop_token stop) {
+  static const SystemClock clock;
+  auto spec = parse_source_spec(source);
+  if (!spec) return forward_error(spec);
+  SourcePace pace = default_pace;
+  if (const auto rate = spec->options.extract("rate"); !rate.empty()) {
+    const auto parsed = parse_source_pace(rate.mapped());
+    if (!parsed) return forward_error(parsed);
+    pace = *parsed;
+  }
+  auto opened = open_kind(*spec);
+  if (!opened || pace == kUnpaced) return opened;
+  return std::make_unique<PacedSource>(*std::move(opened), pace, clock,
+                                       stoppable_wait(std::move(stop)));
+}
+
+}  // namespace lifeline::sources

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string_view>
+
+#include "agents/sensing/scan_source.hpp"
+#include "agents/sources/paced_source.hpp"
+#include "common/base/result.hpp"
+
+namespace lifeline::sources {
+
+/// Opens a SOURCE: `carmen:LOG[.gz]`, `rosbag2:DIR` or `sim:PLAN`, with options after '?'
+/// (docs/sources.md). The option `rate=real|max|xN` is read here, for every kind; `default_pace`
+/// stands in where it is not given. A request on `stop` ends a paced source, also while it waits.
+///
+/// wrong_use for a kind that there is not (the text lists those there are) and for options that
+/// make no sense; the kind's own errors otherwise.
+[[nodiscard]] Result<std::unique_ptr<sensing::ScanSource>> open_source(
+    std::string_view source, SourcePace default_pace = kUnpaced, std::stop_token stop = {});
+
+}  // namespace lifeline::sources
