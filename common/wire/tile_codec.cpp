@@ -1,0 +1,140 @@
+#include "common/wire/tile_codec.hpp"
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <zstd.h>
+
+#include "common/base/check.hpp"
+#include "common/wire/limits.hpp"
+#include "common/wire/tile_planes.hpp"
+#include "idl/tile.pb.h"
+
+namespace lifeline::wire {
+namespace {
+
+constexpr std::uint32_t kEncodingVersion = 1;
+constexpr int kCompressionLevel = 19;
+/// Three planes of at most 2048, 512 and 4096 octets, and a few dozen of Protobuf about them.
+constexpr std::size_t kMaxContent = 6800;
+static_assert(ZSTD_COMPRESSBOUND(kMaxContent) <= kMaxTilePayload);
+
+struct FreeContext {
+  void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+  void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+};
+
+std::string to_text(const std::vector<std::uint8_t>& octets) {
+  return {octets.begin(), octets.end()};
+}
+
+std::span<const std::uint8_t> octets_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+std::vector<std::uint8_t> compress(std::span<const std::uint8_t> content) {
+  // One context for each thread: making one costs more than compressing a tile.
+  thread_local const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
+  LIFELINE_CHECK(context != nullptr);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
+  std::vector<std::uint8_t> frame(ZSTD_compressBound(content.size()));
+  const std::size_t size =
+      ZSTD_compress2(context.get(), frame.data(), frame.size(), content.data(), content.size());
+  LIFELINE_CHECK(ZSTD_isError(size) == 0);
+  frame.resize(size);
+  return frame;
+}
+
+/// Decompresses into `room`. In one go and without a window: zstd's memory does not depend on what
+/// the frame claims.
+Result<std::span<const std::uint8_t>> decompress(std::span<const std::uint8_t> frame,
+                                                 std::span<std::uint8_t> room) {
+  if (frame.size() > kMaxTilePayload) {
+    return fail(ErrorCode::bad_data, "tile refused: payload of {} octets, at most {} are allowed",
+                frame.size(), kMaxTilePayload);
+  }
+  const auto stated = ZSTD_getFrameContentSize(frame.data(), frame.size());
+  if (stated == ZSTD_CONTENTSIZE_ERROR || stated == ZSTD_CONTENTSIZE_UNKNOWN) {
+    return fail(ErrorCode::bad_data, "tile refused: not a zstd frame that states its size");
+  }
+  if (stated > room.size()) {
+    return fail(ErrorCode::bad_data, "tile refused: unpacks to {} octets, at most {} are allowed",
+                stated, room.size());
+  }
+  if (ZSTD_findFrameCompressedSize(frame.data(), frame.size()) != frame.size()) {
+    return fail(ErrorCode::bad_data, "tile refused: not exactly one whole zstd frame");
+  }
+  thread_local const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
+  LIFELINE_CHECK(context != nullptr);
+  const std::size_t size =
+      ZSTD_decompressDCtx(context.get(), room.data(), room.size(), frame.data(), frame.size());
+  if (ZSTD_isError(size) != 0) {
+    return fail(ErrorCode::bad_data, "tile refused: damaged zstd frame ({})",
+                ZSTD_getErrorName(size));
+  }
+  return room.first(size);
+}
+
+Result<void> check_header(const proto::TilePayload& payload, const GridGeometry& expected) {
+  if (payload.encoding_version() != kEncodingVersion) {
+    return fail(ErrorCode::unsupported,
+                "tile refused: encoding version {}, this program reads {}; run the same release "
+                "everywhere",
+                payload.encoding_version(), kEncodingVersion);
+  }
+  if (payload.cell_size_um() != to_micrometres(expected.cell_size_m)) {
+    return fail(ErrorCode::unsupported,
+                "map of other cell size: the tile has {} m, this map {} m; set grid.cell_size_m "
+                "alike everywhere",
+                payload.cell_size_um() / 1e6, expected.cell_size_m);
+  }
+  if (payload.truncation_um() != to_micrometres(expected.truncation_m)) {
+    return fail(ErrorCode::unsupported,
+                "map of other truncation: the tile has {} m, this map {} m; set grid.truncation_m "
+                "alike everywhere",
+                payload.truncation_um() / 1e6, expected.truncation_m);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::uint32_t to_micrometres(double length_m) {
+  LIFELINE_CHECK(length_m >= 0.0 && length_m < 4000.0);
+  return static_cast<std::uint32_t>(std::llround(length_m * 1e6));
+}
+
+std::vector<std::uint8_t> encode_tile(const QuantisedTile& tile, const GridGeometry& geometry) {
+  const TilePlanes planes = to_planes(tile);
+  proto::TilePayload payload;
+  payload.set_encoding_version(kEncodingVersion);
+  payload.set_cell_size_um(to_micrometres(geometry.cell_size_m));
+  payload.set_truncation_um(to_micrometres(geometry.truncation_m));
+  payload.set_weights(to_text(planes.weights));
+  payload.set_free(to_text(planes.free));
+  payload.set_tsd(to_text(planes.tsd));
+  const std::string content = payload.SerializeAsString();
+  LIFELINE_CHECK(content.size() <= kMaxContent);
+  return compress(octets_of(content));
+}
+
+Result<QuantisedTile> decode_tile(std::span<const std::uint8_t> payload,
+                                  const GridGeometry& expected) {
+  std::array<std::uint8_t, kMaxContent> room;
+  const auto content = decompress(payload, room);
+  if (!content) return forward_error(content);
+  proto::TilePayload message;
+  if (!message.ParseFromArray(content->data(), static_cast<int>(content->size()))) {
+    return fail(ErrorCode::bad_data, "tile refused: not a TilePayload message");
+  }
+  if (const auto checked = check_header(message, expected); !checked) {
+    return forward_error(checked);
+  }
+  return from_planes(octets_of(message.weights()), octets_of(message.free()),
+                     octets_of(message.tsd()));
+}
+
+}  // namespace lifeline::wire
