@@ -22,11 +22,6 @@ apt() {
     -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 "$@" >"$log" 2>&1
 }
 
-# The first complaint that apt left in the log.
-complaint() {
-  grep -m 1 -E '^(E|Err|W):' "$log" || tail -n 1 "$log"
-}
-
 command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
   stop "this machine has no apt: install what deploy/packages.txt names (Debian 12 packages) by hand"
 mapfile -t missing < <(missing_packages)
@@ -40,13 +35,19 @@ fi
 log="$(mktemp)"
 trap 'rm -f "$log"' EXIT
 
-printf 'setup: installing %d missing Debian packages and what they need, by apt%s (minutes):\n  %s\n' \
-  "${#missing[@]}" "${as_root:+ through sudo}" "${missing[*]}"
-# Stale or unreachable package lists matter only if the installation then fails.
-apt update || true
-if ! apt install --no-install-recommends "${missing[@]}"; then
-  reason="$(complaint)"
+give_up() {
+  local reason
+  reason="$(grep -m 1 -E '^(E|Err|W):' "$log" || tail -n 1 "$log")"
   mapfile -t missing < <(missing_packages)
-  stop "could not install ${missing[*]} - apt says: ${reason:-nothing}; is the network up?"
-fi
+  stop "could not install ${missing[*]}; apt says: ${reason:-nothing}; is the network up?"
+}
+
+printf 'setup: these Debian packages are missing and will be installed by apt%s:\n  %s\n' \
+  "${as_root:+ through sudo}" "${missing[*]}"
+echo "setup: reading the package lists"
+apt update || true # stale lists matter only if what follows fails
+echo "setup: downloading (on a bare machine about 0.7 GB)"
+apt install --no-install-recommends --download-only "${missing[@]}" || give_up
+echo "setup: unpacking and configuring (minutes)"
+apt install --no-install-recommends "${missing[@]}" || give_up
 echo "setup: done"
