@@ -10,18 +10,23 @@ namespace lifeline {
 MatchOutcome Matcher::match(const MatchJob& job) {
   const auto a = features_of(job.a, job.layer_a, job.geometry);
   const auto b = features_of(job.b, job.layer_b, job.geometry);
-  return {job.a, job.b, matching::match_maps(*a, *b, config_)};
+  if (!a || !b) {
+    matching::MatchResult refused;
+    refused.verdict = matching::Verdict::rejected;
+    refused.reason = a ? b.error().text : a.error().text;
+    return {job.a, job.b, refused};
+  }
+  return {job.a, job.b, matching::match_maps(**a, **b, config_)};
 }
 
-std::shared_ptr<const matching::MapFeatures> Matcher::features_of(
-    const merging::LayerProgress& progress, const sharing::ReplicaLayer& layer,
-    const GridGeometry& geometry) {
+Matcher::Features Matcher::features_of(const merging::LayerProgress& progress,
+                                       const sharing::ReplicaLayer& layer,
+                                       const GridGeometry& geometry) {
   Cached& cached = cache_[progress.layer];
-  if (cached.features == nullptr || cached.changes != progress.changes) {
-    cached.features = std::make_shared<const matching::MapFeatures>(
-        matching::extract_features(sharing::to_grid(layer, geometry)));
-    cached.changes = progress.changes;
-  }
+  if (cached.features != nullptr && cached.changes == progress.changes) return cached.features;
+  auto built = matching::build_features(sharing::to_grid(layer, geometry));
+  if (!built) return forward_error(built);
+  cached = {progress.changes, std::make_shared<const matching::MapFeatures>(*std::move(built))};
   return cached.features;
 }
 

@@ -33,13 +33,13 @@ class Matcher {
   [[nodiscard]] MatchOutcome match(const MatchJob& job);
 
  private:
+  using Features = Result<std::shared_ptr<const matching::MapFeatures>>;
   struct Cached {
     std::size_t changes = 0;
     std::shared_ptr<const matching::MapFeatures> features;
   };
-  std::shared_ptr<const matching::MapFeatures> features_of(const merging::LayerProgress& progress,
-                                                           const sharing::ReplicaLayer& layer,
-                                                           const GridGeometry& geometry);
+  Features features_of(const merging::LayerProgress& progress, const sharing::ReplicaLayer& layer,
+                       const GridGeometry& geometry);
   matching::MatchConfig config_;
   std::map<LayerKey, Cached> cache_;
 };
