@@ -7,6 +7,7 @@
 #include "agents/sources/carmen_line.hpp"
 #include "agents/sources/line_reader.hpp"
 #include "agents/sources/portable_noise.hpp"
+#include "agents/sources/scan_range.hpp"
 #include "common/base/check.hpp"
 
 namespace lifeline::sources {
@@ -21,33 +22,25 @@ constexpr const char* kTruncated = "the log ends in the middle of a line: it is 
 constexpr Duration kStepBetweenEqualTimes = std::chrono::milliseconds(1);
 
 struct CarmenOptions {
-  std::int64_t from = 0;
-  std::int64_t to = std::numeric_limits<std::int64_t>::max();
+  ScanRange range;
   std::string prior;
   std::uint64_t seed = 1;
   double max_range_m = kDefaultMaxRange_m;
 };
 
 Result<CarmenOptions> read_options(const SourceSpec& spec) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   if (auto known = spec.allow_options({"from", "to", "prior", "seed", "max_range"}); !known) {
     return forward_error(known);
   }
-  const auto from = spec.integer("from", 0, 0, kMost - 1);
-  if (!from) return forward_error(from);
-  const auto to = spec.integer("to", kMost, 1, kMost);
-  if (!to) return forward_error(to);
-  if (*from >= *to) {
-    return fail(ErrorCode::wrong_use, "carmen: from={} to={} leaves no scan", *from, *to);
-  }
+  const auto range = read_scan_range(spec);
+  if (!range) return forward_error(range);
   auto prior = spec.choice("prior", "none", {"none", "ahrs", "yaw", "odom"});
   if (!prior) return forward_error(prior);
-  const auto seed = spec.integer("seed", 1, 0, kMost);
+  const auto seed = spec.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max());
   if (!seed) return forward_error(seed);
   const auto max_range_m = spec.number("max_range", kDefaultMaxRange_m, 0.1, 1000.0);
   if (!max_range_m) return forward_error(max_range_m);
-  return CarmenOptions{*from, *to, *std::move(prior), static_cast<std::uint64_t>(*seed),
-                       *max_range_m};
+  return CarmenOptions{*range, *std::move(prior), static_cast<std::uint64_t>(*seed), *max_range_m};
 }
 
 class CarmenSource final : public sensing::ScanSource {
@@ -65,12 +58,12 @@ class CarmenSource final : public sensing::ScanSource {
  private:
   /// The next scan of [from, to). Those before are read too: their times and noise count.
   Result<std::optional<RawScan>> next_wanted() {
-    while (index_ < options_.to) {
+    while (index_ < options_.range.to) {
       auto flaser = next_flaser();
       if (!flaser) return forward_error(flaser);
       if (!*flaser) return end_of_log();
       RawScan scan = convert(std::move(**flaser));
-      if (index_++ >= options_.from) return scan;
+      if (index_++ >= options_.range.from) return scan;
     }
     return std::nullopt;
   }
@@ -96,14 +89,10 @@ class CarmenSource final : public sensing::ScanSource {
   }
 
   Result<std::optional<RawScan>> end_of_log() const {
-    if (index_ == 0) {
-      return fail(ErrorCode::bad_data, "{}: holds no scan: none of its {} lines is a FLASER line",
-                  reader_.path(), reader_.line_number());
-    }
-    if (index_ <= options_.from) {
-      return fail(ErrorCode::bad_data, "{}: holds {} scans, from={} is beyond the last",
-                  reader_.path(), index_, options_.from);
-    }
+    const auto checked = check_scan_count(
+        reader_.path(), index_, options_.range,
+        fmt::format("none of its {} lines is a FLASER line", reader_.line_number()));
+    if (!checked) return forward_error(checked);
     return std::nullopt;
   }
 

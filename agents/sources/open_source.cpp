@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "agents/sources/carmen_source.hpp"
+#include "agents/sources/rosbag2_source.hpp"
 #include "agents/sources/source_spec.hpp"
 
 namespace lifeline::sources {
@@ -10,7 +11,8 @@ namespace {
 
 Result<std::unique_ptr<sensing::ScanSource>> open_kind(const SourceSpec& spec) {
   if (spec.kind == "carmen") return open_carmen_source(spec);
-  return fail(ErrorCode::wrong_use, "source '{}:{}': unknown kind '{}'; there are: carmen",
+  if (spec.kind == "rosbag2") return open_rosbag2_source(spec);
+  return fail(ErrorCode::wrong_use, "source '{}:{}': unknown kind '{}'; there are: carmen, rosbag2",
               spec.kind, spec.target, spec.kind);
 }
 
