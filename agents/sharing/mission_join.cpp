@@ -28,10 +28,6 @@ MissionJoin::MissionJoin(Speaker speaker, Floor floor, Duration listen,
 
 std::optional<Result<MapId>> MissionJoin::step() {
   const SteadyTime now = clock_.steady_now();
-  if (now >= announce_due_) {
-    announce_due_ = now + kAnnounceInterval;
-    announce();
-  }
   for (const auto& status : inbox_.take()) {
     if (!check_envelope(status.envelope, speaker_.mission_id)) continue;
     learn_map_numbers(status);
@@ -40,6 +36,11 @@ std::optional<Result<MapId>> MissionJoin::step() {
                   "another helmet calls itself {} already; give this one another --id",
                   speaker_.id.text());
     }
+  }
+  // After listening: our own status, heard back, replaces another's under the same key.
+  if (now >= announce_due_) {
+    announce_due_ = now + kAnnounceInterval;
+    announce();
   }
   if (now - started_ < listen_) return std::nullopt;
   return MapId{last_map_ + 1};

@@ -1,0 +1,249 @@
+#include "agents/sharing/helmet_sharing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "agents/sharing/mission_join.hpp"
+#include "common/sharing/fixed_transform.hpp"
+#include "common/wire/loopback.hpp"
+#include "tests/support/sharing_samples.hpp"
+
+namespace lifeline::sharing {
+namespace {
+
+using std::chrono::milliseconds;
+using test::layer;
+
+Speaker speaker(const std::string& id, std::uint64_t incarnation) {
+  return {AgentId::parse(id).value(), test::kMission, Incarnation{incarnation}};
+}
+
+// A few helmets and a hand-driven coordinator on one bus and one clock.
+class HelmetSharingTest : public testing::Test {
+ protected:
+  std::unique_ptr<HelmetSharing> make_helmet(const std::string& id, std::uint64_t incarnation = 1) {
+    HelmetChannels channels{bus_.writer<wire::HelmetPose>(),  bus_.writer<wire::HelmetScan>(),
+                            bus_.writer<wire::TsdTile>(),     bus_.writer<wire::AgentStatus>(),
+                            bus_.reader<wire::TsdTile>(),     bus_.reader<wire::MergeDirective>(),
+                            bus_.reader<wire::AgentStatus>(), [] { return std::uint64_t{0}; }};
+    HelmetSharingConfig config{speaker(id, incarnation), layer(id), {}, publisher_};
+    auto helmet = std::make_unique<HelmetSharing>(config, std::move(channels), clock_);
+    HelmetState state;
+    state.state = wire::AgentState::tracking;
+    helmet->put(state);
+    return helmet;
+  }
+
+  void run(std::initializer_list<HelmetSharing*> helmets, Duration time = milliseconds(3000)) {
+    for (Duration passed{}; passed < time; passed += milliseconds(50)) {
+      clock_.advance(milliseconds(50));
+      for (HelmetSharing* helmet : helmets) helmet->step();
+    }
+  }
+
+  MapTiles random_tiles(std::initializer_list<TileIndex> indices) {
+    MapTiles tiles;
+    for (const TileIndex index : indices) {
+      tiles.emplace_back(index, std::make_shared<const QuantisedTile>(test::random_tile(random_)));
+    }
+    return tiles;
+  }
+
+  void direct(std::uint64_t epoch, const std::vector<std::pair<std::string, Pose2>>& members) {
+    wire::MergeDirective directive;
+    directive.envelope = test::envelope("coordinator", epoch);
+    directive.mission_id = test::kMission;
+    directive.epoch = epoch;
+    for (const auto& [id, T_common_map] : members) {
+      directive.members.push_back({{id, 1, 0}, 0, to_fixed(T_common_map), {}, 1.0F});
+    }
+    ASSERT_TRUE(coordinator_->put(directive));
+  }
+
+  std::mt19937 random_{3};
+  ManualClock clock_;
+  wire::LoopbackBus bus_;
+  TilePublisherConfig publisher_;
+  std::unique_ptr<wire::Outbox<wire::MergeDirective>> coordinator_ =
+      bus_.writer<wire::MergeDirective>();
+};
+
+TEST_F(HelmetSharingTest, HelmetsThatFollowOneDirectiveHoldTheSameMapToTheBit) {
+  auto alpha = make_helmet("alpha"), bravo = make_helmet("bravo");
+  alpha->put(random_tiles({{0, 0}, {1, 0}}));
+  bravo->put(random_tiles({{0, 0}, {0, -1}}));
+  direct(1, {{"alpha", {}}, {"bravo", {0.7, -1.3, 2.2}}});
+  run({alpha.get(), bravo.get()});
+  EXPECT_EQ(alpha->tiles_behind(), 0U);
+  ASSERT_TRUE(alpha->map().shares());
+  EXPECT_EQ(to_hex(alpha->map().common_map_sha256()), to_hex(bravo->map().common_map_sha256()));
+  EXPECT_EQ(alpha->map().fingerprint(), bravo->map().fingerprint());
+  EXPECT_NE(alpha->map().fingerprint(), RevisionDigest{});
+}
+
+TEST_F(HelmetSharingTest, ALateJoinerCatchesUp) {
+  auto alpha = make_helmet("alpha");
+  alpha->put(random_tiles({{0, 0}, {4, 2}}));
+  run({alpha.get()});
+  alpha->put(random_tiles({{0, 0}}));
+  direct(1, {{"alpha", {}}, {"bravo", {1.0, 0.0, 0.1}}});
+  run({alpha.get()});
+  auto bravo = make_helmet("bravo");
+  run({alpha.get(), bravo.get()});
+  EXPECT_EQ(to_hex(alpha->map().common_map_sha256()), to_hex(bravo->map().common_map_sha256()));
+}
+
+TEST_F(HelmetSharingTest, AnOlderDirectiveIsRefused) {
+  auto alpha = make_helmet("alpha");
+  direct(5, {{"alpha", {}}, {"bravo", {1.0, 0.0, 0.0}}});
+  run({alpha.get()});
+  direct(4, {{"alpha", {}}, {"bravo", {9.0, 0.0, 0.0}}});
+  run({alpha.get()});
+  EXPECT_EQ(alpha->map().epoch(), Epoch{5});
+  EXPECT_EQ(alpha->map().common_map().placements()[1].T_fused_layer.x_um, 1'000'000);
+}
+
+TEST_F(HelmetSharingTest, AWithdrawnMergeLeavesNoTraceInMapOrPeers) {
+  auto alpha = make_helmet("alpha"), bravo = make_helmet("bravo");
+  alpha->put(random_tiles({{0, 0}}));
+  bravo->put(random_tiles({{0, 0}}));
+  direct(1, {{"alpha", {}}, {"bravo", {0.2, 0.0, 0.0}}});
+  run({alpha.get(), bravo.get()});
+  const auto merged = alpha->take_peer_update();
+  ASSERT_TRUE(merged);
+  EXPECT_TRUE(std::any_of(merged->tiles.begin(), merged->tiles.end(),
+                          [](const auto& tile) { return tile.second; }));
+  direct(2, {});
+  run({alpha.get(), bravo.get()});
+  EXPECT_FALSE(alpha->map().shares());
+  EXPECT_TRUE(alpha->map().common_map().tiles().empty());
+  const auto withdrawn = alpha->take_peer_update();
+  ASSERT_TRUE(withdrawn);
+  EXPECT_TRUE(std::all_of(withdrawn->tiles.begin(), withdrawn->tiles.end(),
+                          [](const auto& tile) { return !tile.second; }));
+}
+
+TEST_F(HelmetSharingTest, PeersArriveInTheHelmetsOwnFrame) {
+  auto alpha = make_helmet("alpha"), bravo = make_helmet("bravo");
+  const auto tiles = random_tiles({{0, 0}});
+  bravo->put(tiles);
+  // Both lie one tile to the right of the common origin: to alpha, bravo's tile is where its own
+  // (0, 0) is.
+  direct(1, {{"alpha", {3.2, 0.0, 0.0}}, {"bravo", {3.2, 0.0, 0.0}}});
+  run({alpha.get(), bravo.get()});
+  const auto peers = alpha->take_peer_update();
+  ASSERT_TRUE(peers);
+  ASSERT_EQ(peers->tiles.size(), 1U);
+  EXPECT_EQ(peers->tiles[0].first, (TileIndex{0, 0}));
+  EXPECT_EQ(*peers->tiles[0].second, dequantise(*tiles[0].second));
+  EXPECT_TRUE(alpha->map().store().layers().contains(layer("bravo")));
+}
+
+TEST_F(HelmetSharingTest, OnlyWhatWasPublishedEntersTheOwnCommonMap) {
+  publisher_.budget_bit_s = 8000;
+  auto alpha = make_helmet("alpha");
+  alpha->put(random_tiles({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}));
+  run({alpha.get()}, milliseconds(500));
+  ASSERT_GT(alpha->tiles_behind(), 0U);
+  EXPECT_EQ(alpha->map().store().find(layer("alpha"))->size() + alpha->tiles_behind(), 6U);
+}
+
+TEST_F(HelmetSharingTest, AnUnchangedTileIsNotSentAgain) {
+  auto alpha = make_helmet("alpha");
+  auto reader = bus_.reader<wire::TsdTile>();
+  const auto tiles = random_tiles({{0, 0}});
+  alpha->put(tiles);
+  run({alpha.get()});
+  EXPECT_EQ(reader->take().size(), 1U);
+  alpha->put(tiles);
+  run({alpha.get()});
+  EXPECT_TRUE(reader->take().empty());
+  EXPECT_EQ(alpha->tiles_behind(), 0U);
+}
+
+TEST_F(HelmetSharingTest, SamplesOfAnotherMissionAreRefusedAndCounted) {
+  auto alpha = make_helmet("alpha");
+  auto writer = bus_.writer<wire::TsdTile>();
+  auto foreign = test::tile_sample(layer("zulu"), {0, 0}, 1, test::random_tile(random_));
+  foreign.envelope.mission_id = "another";
+  ASSERT_TRUE(writer->put(foreign));
+  run({alpha.get()});
+  EXPECT_EQ(alpha->refused(), 1U);
+  EXPECT_TRUE(alpha->map().store().layers().empty());
+}
+
+TEST_F(HelmetSharingTest, SaysSoWhenAnotherUsesItsId) {
+  auto first = make_helmet("alpha", 1), second = make_helmet("alpha", 2);
+  run({first.get(), second.get()});
+  EXPECT_TRUE(first->status().duplicate_id_heard);
+  EXPECT_TRUE(second->status().duplicate_id_heard);
+}
+
+TEST_F(HelmetSharingTest, NothingIsPublishedBeforeTheFirstPose) {
+  auto alpha = make_helmet("alpha");
+  alpha->put(HelmetState{});
+  auto poses = bus_.reader<wire::HelmetPose>();
+  run({alpha.get()});
+  EXPECT_TRUE(poses->take().empty());
+}
+
+class MissionJoinTest : public HelmetSharingTest {
+ protected:
+  std::optional<Result<MapId>> join(std::uint64_t incarnation, HelmetSharing* present = nullptr) {
+    MissionJoin join(speaker("alpha", incarnation), Floor{0}, milliseconds(1500), *outbox_, *inbox_,
+                     clock_);
+    for (int i = 0; i < 100; ++i) {
+      clock_.advance(milliseconds(50));
+      if (present != nullptr) present->step();
+      if (auto answer = join.step()) return answer;
+    }
+    return std::nullopt;
+  }
+  std::unique_ptr<wire::Outbox<wire::AgentStatus>> outbox_ = bus_.writer<wire::AgentStatus>();
+  std::unique_ptr<wire::Inbox<wire::AgentStatus>> inbox_ = bus_.reader<wire::AgentStatus>();
+};
+
+TEST_F(MissionJoinTest, TheFirstMapIsNumberOne) {
+  const auto answer = join(5);
+  ASSERT_TRUE(answer && *answer);
+  EXPECT_EQ(**answer, MapId{1});
+}
+
+TEST_F(MissionJoinTest, ATakenIdIsRefusedAndTheHolderSaysSo) {
+  auto holder = make_helmet("alpha", 9);
+  const auto answer = join(5, holder.get());
+  ASSERT_TRUE(answer);
+  ASSERT_FALSE(*answer);
+  EXPECT_NE(answer->error().text.find("calls itself alpha already"), std::string::npos);
+  holder->step();
+  EXPECT_TRUE(holder->status().duplicate_id_heard);
+}
+
+TEST_F(MissionJoinTest, ARebootedHelmetStartsANewMapWhileTheOldOneIsRemembered) {
+  auto before = make_helmet("alpha", 1), bravo = make_helmet("bravo");
+  before->put(random_tiles({{0, 0}}));
+  run({before.get(), bravo.get()});
+  before.reset();
+  (void)inbox_->take();
+  const auto answer = join(2, bravo.get());
+  ASSERT_TRUE(answer && *answer);
+  EXPECT_EQ(**answer, MapId{2});
+}
+
+TEST_F(MissionJoinTest, OfTwoThatStartAtOnceExactlyOneStays) {
+  MissionJoin small(speaker("alpha", 3), Floor{0}, milliseconds(1500), *outbox_, *inbox_, clock_);
+  auto other_inbox = bus_.reader<wire::AgentStatus>();
+  MissionJoin large(speaker("alpha", 4), Floor{0}, milliseconds(1500), *outbox_, *other_inbox,
+                    clock_);
+  std::optional<Result<MapId>> small_answer, large_answer;
+  for (int i = 0; i < 100 && !(small_answer && large_answer); ++i) {
+    clock_.advance(milliseconds(50));
+    if (!small_answer) small_answer = small.step();
+    if (!large_answer) large_answer = large.step();
+  }
+  ASSERT_TRUE(small_answer && large_answer);
+  EXPECT_TRUE(small_answer->has_value());
+  EXPECT_FALSE(large_answer->has_value());
+}
+
+}  // namespace
+}  // namespace lifeline::sharing
