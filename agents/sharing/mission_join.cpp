@@ -32,6 +32,7 @@ std::optional<Result<MapId>> MissionJoin::step() {
     if (!check_envelope(status.envelope, speaker_.mission_id)) continue;
     learn_map_numbers(status);
     if (is_taken_by(status)) {
+      announce();  // so that the other one can tell its people too
       return fail(ErrorCode::unavailable,
                   "another helmet calls itself {} already; give this one another --id",
                   speaker_.id.text());
