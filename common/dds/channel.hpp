@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+
+#include "common/base/result.hpp"
+#include "common/dds/participant.hpp"
+#include "common/wire/channel.hpp"
+
+namespace lifeline::dds {
+
+/// Which of several writers of one key is heard where ownership is exclusive (merge_directive).
+enum class Standing {
+  primary,
+  standby,  ///< heard only while the primary is not alive
+};
+
+/// Where samples of `Message`'s topic leave this process. One thread per outbox. put() converts,
+/// checks the bounds (bad_data) and hands over; it never waits for the network.
+/// Error: bad_data when the topic's profile contradicts itself, with the profile file.
+/// `Message` is one of the nine of common/wire/messages.hpp.
+template <typename Message>
+[[nodiscard]] Result<std::unique_ptr<wire::Outbox<Message>>> make_outbox(
+    Participant& participant, Standing standing = Standing::primary);
+
+/// Where samples of `Message`'s topic arrive, other participants' only: a process does not hear
+/// itself. One thread per inbox. refused() counts what the middleware rejected or lost and what
+/// could not be decoded or broke a bound.
+template <typename Message>
+[[nodiscard]] Result<std::unique_ptr<wire::Inbox<Message>>> make_inbox(Participant& participant);
+
+}  // namespace lifeline::dds

@@ -1,0 +1,104 @@
+#include "common/dds/qos_profiles.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tinyxml2.h>
+
+#include "common/dds/fastdds_version.hpp"
+#include "common/dds/topics.hpp"
+
+namespace lifeline::dds {
+namespace {
+
+/// Appends the lines of all elements called `name` below `node`.
+void find_lines(const tinyxml2::XMLElement* element, std::string_view name,
+                std::vector<int>& lines) {
+  for (; element != nullptr; element = element->NextSiblingElement()) {
+    if (element->Name() == name) lines.push_back(element->GetLineNum());
+    find_lines(element->FirstChildElement(), name, lines);
+  }
+}
+
+/// Fast DDS names a wrong element ("... Name: foo") but not its line.
+std::optional<int> line_of_complaint(const tinyxml2::XMLDocument& document,
+                                     std::string_view complaint) {
+  constexpr std::string_view kMarker = "Name: ";
+  const auto at = complaint.find(kMarker);
+  if (at == std::string_view::npos) return std::nullopt;
+  std::vector<int> lines;
+  find_lines(document.RootElement(), complaint.substr(at + kMarker.size()), lines);
+  return lines.size() == 1 ? std::optional(lines.front()) : std::nullopt;
+}
+
+Result<void> parse(const std::filesystem::path& file, tinyxml2::XMLDocument& document) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    return fail(ErrorCode::not_found,
+                "{}: no such QoS profile file; config/qos/ holds the shipped ones", file.string());
+  }
+  if (!std::filesystem::is_regular_file(file, error)) {
+    return fail(ErrorCode::bad_data, "{}: not a file; a QoS profile file is needed", file.string());
+  }
+  if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
+    return fail(ErrorCode::bad_data, "{}:{}: malformed XML ({})", file.string(),
+                document.ErrorLineNum(), document.ErrorName());
+  }
+  return {};
+}
+
+Result<void> require(bool present, const std::filesystem::path& file, std::string_view kind,
+                     std::string_view profile) {
+  if (present) return {};
+  return fail(ErrorCode::bad_data, "{}: {} profile '{}' is missing", file.string(), kind, profile);
+}
+
+/// The profiles of one topic.
+template <typename Message>
+Result<void> require_profiles(const TopicRow<Message>& topic, const std::filesystem::path& file) {
+  for (const auto name : {topic.writer_profile, topic.standby_profile}) {
+    if (name.empty()) continue;
+    const auto found = require(xml::has_writer(std::string(name)), file, "publisher", name);
+    if (!found) return found;
+  }
+  return require(xml::has_reader(std::string(topic.reader_profile)), file, "subscriber",
+                 topic.reader_profile);
+}
+
+Result<void> require_all_profiles(const std::filesystem::path& file) {
+  auto result = require(xml::has_participant(std::string(kParticipantProfile)), file, "participant",
+                        kParticipantProfile);
+  const auto check = [&](const auto& topic) {
+    if (result) result = require_profiles(topic, file);
+  };
+  std::apply([&](const auto&... topics) { (check(topics), ...); }, kTopics);
+  return result;
+}
+
+}  // namespace
+
+std::mutex& profiles_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+Result<void> load_qos_profiles(const std::filesystem::path& file, const LogCapture& capture) {
+  tinyxml2::XMLDocument document;
+  if (const auto parsed = parse(file, document); !parsed) return parsed;
+  xml::forget_profiles();
+  const auto code =
+      fast::DomainParticipantFactory::get_instance()->load_XML_profiles_file(file.string());
+  const auto errors = capture.errors();
+  // A profile name used twice is logged, but the call still says OK.
+  if (!is_ok(code) || !errors.empty()) {
+    const std::string reason = errors.empty() ? "no profiles in it" : errors.front();
+    const auto line = line_of_complaint(document, reason);
+    return fail(ErrorCode::bad_data, "{}{}: {}", file.string(),
+                line ? fmt::format(":{}", *line) : "", reason);
+  }
+  return require_all_profiles(file);
+}
+
+}  // namespace lifeline::dds
