@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "agents/sources/decimal_seconds.hpp"
+#include "common/base/decimal_seconds.hpp"
 
 namespace lifeline::sources {
 namespace {

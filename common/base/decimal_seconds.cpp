@@ -1,9 +1,9 @@
-#include "agents/sources/decimal_seconds.hpp"
+#include "common/base/decimal_seconds.hpp"
 
 #include <charconv>
 #include <cstdint>
 
-namespace lifeline::sources {
+namespace lifeline {
 namespace {
 
 /// The difference of any two times must fit 64 bits too.
@@ -69,4 +69,4 @@ std::optional<Duration> parse_decimal_seconds(std::string_view text) {
   return Duration(negative ? -count : count);
 }
 
-}  // namespace lifeline::sources
+}  // namespace lifeline

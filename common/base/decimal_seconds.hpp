@@ -5,7 +5,7 @@
 
 #include "common/base/time.hpp"
 
-namespace lifeline::sources {
+namespace lifeline {
 
 /// Seconds as decimal text (`976052890.244111`, `1.13486e+09`) to nanoseconds, digit by digit: a
 /// double holds seconds since 1970 only to 0.2 us. Digits beyond the nanosecond, or beyond the
@@ -13,4 +13,4 @@ namespace lifeline::sources {
 /// years 1843 to 2096 on a clock that counts from 1970).
 [[nodiscard]] std::optional<Duration> parse_decimal_seconds(std::string_view text);
 
-}  // namespace lifeline::sources
+}  // namespace lifeline
