@@ -1,0 +1,53 @@
+#include "agents/agent_settings.hpp"
+
+#include "common/files/load_config.hpp"
+#include "idl/config.pb.h"
+
+namespace lifeline {
+namespace {
+
+std::optional<slam::Matcher> parse_matcher(const std::string& name) {
+  if (name == "conventional") return slam::Matcher::conventional;
+  if (name == "advanced") return slam::Matcher::advanced;
+  if (name == "direct") return slam::Matcher::direct;
+  return std::nullopt;
+}
+
+}  // namespace
+
+AgentSettings to_settings(const proto::AgentConfig& config) {
+  AgentSettings settings;
+  settings.geometry = {config.grid().cell_size_m(), config.grid().truncation_m()};
+  const auto& slam = config.slam();
+  settings.slam.matcher = parse_matcher(slam.matcher()).value_or(slam::Matcher::direct);
+  settings.slam.max_range_m = slam.max_range_m();
+  settings.slam.min_model_points = static_cast<int>(slam.min_model_points());
+  settings.slam.max_mean_error_m = slam.max_mean_error_m();
+  settings.slam.gicp_max_iterations = static_cast<int>(slam.gicp_max_iterations());
+  settings.projection.max_range_m = slam.max_range_m();
+  settings.publisher.budget_bit_s = config.sharing().budget_bit_s();
+  settings.publisher.min_tile_interval = from_seconds(config.sharing().min_tile_interval_s());
+  settings.match_working_map = config.sharing().match_working_map();
+  return settings;
+}
+
+Result<proto::AgentConfig> read_agent_config(const std::optional<std::filesystem::path>& file,
+                                             const std::optional<std::string>& matcher) {
+  proto::AgentConfig config;
+  files::fill_defaults(config);
+  if (file) {
+    auto loaded = files::load_agent_config(*file);
+    if (!loaded) return loaded;
+    config = *std::move(loaded);
+  }
+  if (matcher) {
+    if (!parse_matcher(*matcher)) {
+      return fail(ErrorCode::wrong_use, "--matcher {}: there are conventional, advanced and direct",
+                  *matcher);
+    }
+    config.mutable_slam()->set_matcher(*matcher);
+  }
+  return config;
+}
+
+}  // namespace lifeline

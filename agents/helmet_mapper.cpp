@@ -1,0 +1,94 @@
+#include "agents/helmet_mapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/quantile.hpp"
+#include "common/wire/limits.hpp"
+
+namespace lifeline {
+namespace {
+
+constexpr std::size_t kMedianOver = 100;  // scans
+
+wire::AgentState state_of(const slam::SlamStep& step) {
+  switch (step.verdict) {
+    case slam::Verdict::accepted:
+      return wire::AgentState::tracking;
+    case slam::Verdict::weak:
+      return wire::AgentState::weak;
+    case slam::Verdict::rejected:
+      break;
+  }
+  return step.trust_percent == 0 ? wire::AgentState::lost : wire::AgentState::weak;
+}
+
+// Every n-th beam, so that a sweep fits into one sample; ranges up to 655 m, 0 = nothing known.
+void thin_out(const Scan2& scan, sharing::HelmetState& state) {
+  state.ranges_cm.clear();
+  if (scan.beams.size() < 2) return;
+  const std::size_t stride = (scan.beams.size() + wire::kMaxScanBeams - 1) / wire::kMaxScanBeams;
+  state.first_angle_rad = scan.beams[0].angle_rad;
+  state.angle_step_rad =
+      (scan.beams[1].angle_rad - scan.beams[0].angle_rad) * static_cast<float>(stride);
+  for (std::size_t i = 0; i < scan.beams.size(); i += stride) {
+    const Beam2& beam = scan.beams[i];
+    const float range_cm =
+        beam.kind == BeamKind::hit ? std::min(100.0F * beam.range_m, 65535.0F) : 0.0F;
+    state.ranges_cm.push_back(static_cast<std::uint16_t>(std::lround(range_cm)));
+  }
+}
+
+}  // namespace
+
+void HelmetMapper::step(const sensing::RawScan& raw) {
+  const auto started = std::chrono::steady_clock::now();
+  const Scan2 scan = sensing::project_scan(raw, projection_);
+  const slam::SlamStep step = slam_.step(scan, motion_.next(raw));
+  step_ms_.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
+  for (const TileIndex tile : slam_.take_changed_tiles()) changed_.insert(tile);
+  note_step(raw, scan, step);
+}
+
+void HelmetMapper::note_step(const sensing::RawScan& raw, const Scan2& scan,
+                             const slam::SlamStep& step) {
+  if (!trajectory_.empty()) {
+    const auto& last = trajectory_.back();
+    const double elapsed_s = to_seconds(raw.stamp - last.stamp);
+    const double moved_m = (step.T_map_head.translation() - last.pose.translation()).norm();
+    state_.speed_m_s = elapsed_s > 0.0 ? moved_m / elapsed_s : 0.0;
+  }
+  trajectory_.push_back({raw.stamp, step.T_map_head});
+  if (raw.T_world_head_truth) truth_.push_back({raw.stamp, *raw.T_world_head_truth});
+  state_.state = state_of(step);
+  state_.T_map_head = step.T_map_head;
+  state_.trust_percent = static_cast<std::uint8_t>(std::clamp(step.trust_percent, 0, 100));
+  ++state_.scans;
+  if (step.verdict == slam::Verdict::rejected) ++state_.failures;
+  thin_out(scan, state_);
+}
+
+void HelmetMapper::apply(const sharing::PeerUpdate& peers) {
+  slam_.set_own_weight(peers.own_weight);
+  for (const auto& [tile, cells] : peers.tiles) slam_.set_peer_tile(tile, cells);
+}
+
+sharing::MapTiles HelmetMapper::take_changed_tiles() {
+  sharing::MapTiles tiles;
+  for (const TileIndex tile : changed_) {
+    const TsdTile* cells = slam_.layer().find(tile);
+    tiles.emplace_back(tile, std::make_shared<const QuantisedTile>(quantise(*cells)));
+  }
+  changed_.clear();
+  return tiles;
+}
+
+sharing::HelmetState HelmetMapper::state() const {
+  sharing::HelmetState state = state_;
+  const std::size_t recent = std::min(step_ms_.size(), kMedianOver);
+  state.slam_ms_median =
+      quantile({step_ms_.end() - static_cast<std::ptrdiff_t>(recent), step_ms_.end()}, 0.5);
+  return state;
+}
+
+}  // namespace lifeline

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "agents/sensing/head_projection.hpp"
+#include "agents/sharing/helmet_sharing.hpp"
+#include "agents/slam/tsd_slam.hpp"
+#include "common/grid/stamped_pose.hpp"
+
+namespace lifeline {
+
+/// The mapping half of a helmet: scans in, own layer and pose out. Never waits for anybody.
+/// A state machine: one step() a scan. One owner, not thread-safe.
+class HelmetMapper {
+ public:
+  HelmetMapper(slam::SlamConfig slam, GridGeometry geometry, sensing::ProjectionConfig projection)
+      : slam_(slam, geometry), projection_(projection) {}
+
+  void step(const sensing::RawScan& raw);
+  /// What changed in the peers' part of the working map.
+  void apply(const sharing::PeerUpdate& peers);
+
+  /// Whether the lidar talks, as whoever reads it sees it.
+  void set_lidar_health(wire::SensorHealth health) { state_.lidar = health; }
+
+  /// The own layer's tiles changed since the last call, at the published precision.
+  [[nodiscard]] sharing::MapTiles take_changed_tiles();
+  [[nodiscard]] sharing::HelmetState state() const;
+
+  [[nodiscard]] const TsdGrid& layer() const { return slam_.layer(); }
+  /// T_map_head of every scan.
+  [[nodiscard]] const std::vector<StampedPose>& trajectory() const { return trajectory_; }
+  /// T_world_head of every scan whose source knows it; for judging only.
+  [[nodiscard]] const std::vector<StampedPose>& truth() const { return truth_; }
+  /// Time of each whole step, in the order of scans.
+  [[nodiscard]] const std::vector<double>& step_ms() const { return step_ms_; }
+
+ private:
+  void note_step(const sensing::RawScan& raw, const Scan2& scan, const slam::SlamStep& step);
+
+  slam::TsdSlam slam_;
+  sensing::ProjectionConfig projection_;
+  sensing::MotionTracker motion_;
+  std::vector<StampedPose> trajectory_;
+  std::vector<StampedPose> truth_;
+  std::vector<double> step_ms_;
+  std::set<TileIndex> changed_;
+  sharing::HelmetState state_;
+};
+
+}  // namespace lifeline

@@ -1,0 +1,82 @@
+#include "agents/helmet_threads.hpp"
+
+#include <utility>
+
+#include "common/base/log.hpp"
+
+namespace lifeline {
+namespace {
+
+constexpr std::size_t kQueuedScans = 8;
+constexpr Duration kHandOverInterval = std::chrono::milliseconds(100);
+constexpr Duration kSilentAfter = std::chrono::milliseconds(500);
+
+}  // namespace
+
+HelmetThreads::HelmetThreads(std::unique_ptr<sensing::ScanSource> source, Overflow overflow,
+                             HelmetMapper& mapper, Mailbox& mailbox)
+    : source_(std::move(source)),
+      mapper_(mapper),
+      mailbox_(mailbox),
+      scans_(kQueuedScans, overflow),
+      mapper_thread_([this] { map_scans(); }),
+      source_thread_([this](const std::stop_token& stop) { read_source(stop); }) {}
+
+HelmetThreads::~HelmetThreads() {
+  stop();
+}
+
+void HelmetThreads::stop() {
+  source_thread_.request_stop();
+  scans_.close();
+  if (source_thread_.joinable()) source_thread_.join();
+  if (mapper_thread_.joinable()) mapper_thread_.join();
+}
+
+std::optional<Error> HelmetThreads::source_error() const {
+  std::lock_guard lock(error_mutex_);
+  return source_error_;
+}
+
+void HelmetThreads::read_source(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    auto scan = source_->next();
+    if (!scan) {
+      spdlog::error("{}", scan.error().text);
+      std::lock_guard lock(error_mutex_);
+      source_error_ = scan.error();
+      break;
+    }
+    if (!scan->has_value() || !scans_.push(**std::move(scan))) break;
+  }
+  scans_.close();
+}
+
+void HelmetThreads::map_scans() {
+  SteadyTime hand_over_due{}, last_scan = std::chrono::steady_clock::now();
+  while (!scans_.finished()) {
+    if (auto peers = mailbox_.take_peers()) mapper_.apply(*peers);
+    const auto scan = scans_.pop(kHandOverInterval);
+    const SteadyTime now = std::chrono::steady_clock::now();
+    if (scan) {
+      mapper_.step(*scan);
+      last_scan = now;
+    }
+    mapper_.set_lidar_health(now - last_scan > kSilentAfter ? wire::SensorHealth::silent
+                                                            : wire::SensorHealth::good);
+    if (now < hand_over_due) continue;
+    hand_over_due = now + kHandOverInterval;
+    hand_over(false);
+  }
+  hand_over(true);
+  finished_ = true;
+}
+
+void HelmetThreads::hand_over(bool finished) {
+  sharing::HelmetState state = mapper_.state();
+  state.scans_dropped = scans_.dropped();
+  if (finished) state.state = wire::AgentState::finished;
+  mailbox_.put(mapper_.take_changed_tiles(), std::move(state));
+}
+
+}  // namespace lifeline

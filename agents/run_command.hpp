@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace lifeline {
+
+/// What `lifeline-agent run` was told.
+struct AgentRunOptions {
+  std::string id;
+  std::string source;
+  std::optional<std::filesystem::path> config;  ///< config/agent.yaml's schema
+  std::optional<std::filesystem::path>
+      report;                          ///< folder for ID.json, ID.tum, ID.truth.tum, ID.lifemap
+  std::optional<std::string> mission;  ///< these override the configuration
+  std::optional<std::uint32_t> domain;
+  std::optional<std::filesystem::path> qos;
+  std::optional<std::string> matcher;
+};
+
+/// Runs the helmet until a signal; a source that ends leaves the helmet sharing. The exit status: 0
+/// done, 1 failed, 2 wrong use.
+[[nodiscard]] int run_agent_command(const AgentRunOptions& options);
+
+}  // namespace lifeline
