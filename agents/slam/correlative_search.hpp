@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "agents/slam/slam_types.hpp"
+#include "agents/slam/working_map.hpp"
+#include "common/grid/scan_surface.hpp"
+
+namespace lifeline::slam {
+
+struct SearchConfig {
+  int max_points = 150;           ///< of the scan that are compared
+  double max_range_m = 20.0;      ///< points further away take no part
+  double window_sigmas = 3.0;     ///< how far around the prediction is looked
+  double max_window_m = 2.0;
+  double max_window_rad = 0.6;
+  int max_candidates = 6;
+  double free_penalty = 0.4;      ///< of a point in known free space, against 1 on a surface
+  double independent_points = 60; ///< a scan's agreement counts like so many observations
+};
+
+/// A pose worth a closer look.
+struct SearchCandidate {
+  Pose2 T_map_head;
+  double agreement = 0.0;  ///< mean over the points: 1 on surfaces, 0 in the unknown
+  double score = 0.0;      ///< agreement and distance from the prediction, as a log-likelihood
+};
+
+/// Correlative search: compares the scan with the map at all poses of a lattice around a prediction,
+/// on a field of two cells' spacing that says how well a scan's point would fit there. The field is kept
+/// per tile until the tile changes. One owner.
+class CorrelativeSearch {
+ public:
+  explicit CorrelativeSearch(SearchConfig config) : config_(config) {}
+
+  /// These tiles have changed.
+  void forget(std::span<const TileIndex> tiles);
+  void forget_all() { fields_.clear(); }
+
+  /// The best distinct poses, best first; empty where scan or map have nothing to compare.
+  [[nodiscard]] std::vector<SearchCandidate> search(const WorkingMap& map,
+                                                    std::span<const SurfacePiece> pieces,
+                                                    const Prediction& prediction);
+
+  [[nodiscard]] const SearchConfig& config() const { return config_; }
+
+ private:
+  static constexpr int kFieldSide = kTileSide / 2;
+  using TileField = std::array<std::int8_t, static_cast<std::size_t>(kFieldSide* kFieldSide)>;
+
+  void choose_points(std::span<const SurfacePiece> pieces);
+  void build_field(const WorkingMap& map, const Pose2& centre, double window_m);
+  [[nodiscard]] const TileField& field_of(TileIndex tile, const TsdTile& cells);
+  void score_yaw(const Pose2& centre, double yaw_rad, int window);
+  [[nodiscard]] double prior_penalty(const Prediction& prediction, double dx_m, double dy_m,
+                                     double dyaw_rad) const;
+  void collect(const Prediction& prediction, double yaw_rad, int window);
+  [[nodiscard]] std::vector<SearchCandidate> distinct(double yaw_step_rad);
+
+  SearchConfig config_;
+  std::unordered_map<TileIndex, TileField> fields_;
+  std::vector<Eigen::Vector2d> points_;
+  std::vector<std::int8_t> field_;  ///< the tiles' fields side by side, with a margin
+  Eigen::Vector2d field_origin_m_ = Eigen::Vector2d::Zero();
+  double spacing_m_ = 0.1;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::int16_t> scores_;  ///< of one yaw, (2 window + 1)^2
+  std::vector<SearchCandidate> found_;
+};
+
+}  // namespace lifeline::slam

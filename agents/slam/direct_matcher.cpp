@@ -1,0 +1,160 @@
+#include "agents/slam/direct_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+namespace lifeline::slam {
+namespace {
+
+/// From here on a cell counts as free: no surface within the truncation distance.
+constexpr float kFree = 0.95F;
+
+/// The prediction's information about (x, y, yaw).
+Eigen::Vector3d information_of(const Prediction& prior) {
+  const double xy = 1.0 / (prior.sigma_xy_m * prior.sigma_xy_m);
+  return {xy, xy, 1.0 / (prior.sigma_yaw_rad * prior.sigma_yaw_rad)};
+}
+
+/// A pose as the loops over points want it: in cells of the view, as floats.
+struct ViewPose {
+  ViewPose(const TsdView& view, const Pose2& T_map_head) {
+    const Pose2 pose = view.to_view(T_map_head);
+    const double per_m = 1.0 / view.geometry().cell_size_m;
+    x = static_cast<float>(pose.x_m);
+    y = static_cast<float>(pose.y_m);
+    c = static_cast<float>(std::cos(pose.yaw_rad) * per_m);
+    s = static_cast<float>(std::sin(pose.yaw_rad) * per_m);
+  }
+  float x, y, c, s;
+};
+
+}  // namespace
+
+void DirectMatcher::set_scan(std::span<const SurfacePiece> pieces) {
+  points_.clear();
+  const auto most = static_cast<std::size_t>(config_.max_points);
+  const std::size_t stride = std::max<std::size_t>(1, (pieces.size() + most - 1) / most);
+  for (std::size_t i = stride / 2; i < pieces.size(); i += stride) {
+    points_.push_back({pieces[i].point.x(), pieces[i].point.y(), pieces[i].quality});
+  }
+}
+
+DirectMatcher::Normal DirectMatcher::linearise(const TsdView& view, const Pose2& T_map_head,
+                                               double kernel_m) const {
+  const ViewPose pose(view, T_map_head);
+  const auto truncation_m = static_cast<float>(view.geometry().truncation_m);
+  const auto cell_m = static_cast<float>(view.geometry().cell_size_m);
+  const float slope = truncation_m / cell_m;  // of metres of residual per metre of motion
+  const auto k2 = static_cast<float>(kernel_m * kernel_m);
+  float hxx = 0, hxy = 0, hyy = 0, hxt = 0, hyt = 0, htt = 0, gx = 0, gy = 0, gt = 0, sum = 0;
+  TsdView::Sample sample{};
+  for (const Point& point : points_) {
+    const float qx = pose.c * point.x - pose.s * point.y;  // from the head, in cells
+    const float qy = pose.s * point.x + pose.c * point.y;
+    if (!view.sample(pose.x + qx, pose.y + qy, sample)) continue;
+    if (sample.value > kFree) continue;
+    const float r = sample.value * truncation_m;
+    const float fade = k2 / (k2 + r * r);
+    const float w = point.weight * fade * fade;
+    const float jx = slope * sample.gradient.x(), jy = slope * sample.gradient.y();
+    const float jt = (jy * qx - jx * qy) * cell_m;
+    hxx += w * jx * jx;
+    hxy += w * jx * jy;
+    hyy += w * jy * jy;
+    hxt += w * jx * jt;
+    hyt += w * jy * jt;
+    htt += w * jt * jt;
+    gx += w * jx * r;
+    gy += w * jy * r;
+    gt += w * jt * r;
+    sum += w;
+  }
+  Normal normal;
+  normal.H << hxx, hxy, hxt, hxy, hyy, hyt, hxt, hyt, htt;
+  normal.g << gx, gy, gt;
+  normal.weight = static_cast<double>(sum);
+  return normal;
+}
+
+double DirectMatcher::information_scale(const Normal& normal) const {
+  if (normal.weight <= 0.0) return 0.0;
+  const double independent = std::min(config_.independent_points, normal.weight);
+  return independent / (normal.weight * config_.sigma_m * config_.sigma_m);
+}
+
+Pose2 DirectMatcher::align(const TsdView& view, const Pose2& start, const Prediction& prior,
+                           int max_iterations) {
+  Pose2 pose = start;
+  const Eigen::Vector3d held = information_of(prior);
+  double kernel_m = config_.first_kernel_m;
+  for (int i = 0; i < max_iterations; ++i) {
+    const Normal normal = linearise(view, pose, kernel_m);
+    const double scale = information_scale(normal);
+    const Eigen::Vector3d off(pose.x_m - prior.T_map_head.x_m, pose.y_m - prior.T_map_head.y_m,
+                              normalise_angle(pose.yaw_rad - prior.T_map_head.yaw_rad));
+    Eigen::Matrix3d H = scale * normal.H;
+    H.diagonal() += held;
+    const Eigen::Vector3d g = scale * normal.g + held.cwiseProduct(off);
+    Eigen::Vector3d step = -H.llt().solve(g);
+    const double longest = std::max(step.head<2>().norm() / 0.2, std::abs(step.z()) / 0.1);
+    if (longest > 1.0) step /= longest;
+    pose = {pose.x_m + step.x(), pose.y_m + step.y(), normalise_angle(pose.yaw_rad + step.z())};
+    const bool tight = kernel_m <= config_.last_kernel_m;
+    if (tight && step.head<2>().norm() < 2e-4 && std::abs(step.z()) < 5e-5) break;
+    kernel_m = std::max(config_.last_kernel_m, 0.7 * kernel_m);
+  }
+  return pose;
+}
+
+MatchEvidence DirectMatcher::judge(const TsdView& view, const Pose2& T_map_head,
+                                   const Prediction& prior) const {
+  const ViewPose pose(view, T_map_head);
+  MatchEvidence evidence;
+  evidence.points = static_cast<int>(points_.size());
+  TsdView::Sample sample{};
+  double error_sum_m = 0.0;
+  for (const Point& point : points_) {
+    if (!view.sample(pose.x + pose.c * point.x - pose.s * point.y,
+                     pose.y + pose.s * point.x + pose.c * point.y, sample)) {
+      continue;
+    }
+    ++evidence.known;
+    if (sample.value > kFree) {
+      ++evidence.conflicts;
+      continue;
+    }
+    const double error_m =
+        std::abs(static_cast<double>(sample.value)) * view.geometry().truncation_m;
+    error_sum_m += error_m;
+    ++evidence.model_points;
+    if (error_m <= config_.inlier_m) ++evidence.inliers;
+  }
+  if (evidence.model_points > 0) evidence.mean_error_m = error_sum_m / evidence.model_points;
+  const Normal normal = linearise(view, T_map_head, config_.last_kernel_m);
+  Eigen::Matrix3d H = information_scale(normal) * normal.H;
+  H.diagonal() += information_of(prior);
+  evidence.covariance = H.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+      evidence.covariance.topLeftCorner<2, 2>());
+  evidence.weakest_sigma_m = std::sqrt(std::max(0.0, axes.eigenvalues().y()));
+  return evidence;
+}
+
+double DirectMatcher::agreement(const TsdView& view, const Pose2& T_map_head) const {
+  const ViewPose pose(view, T_map_head);
+  TsdView::Sample sample{};
+  float sum = 0.0F, weight = 0.0F;
+  for (const Point& point : points_) {
+    weight += point.weight;
+    if (!view.sample(pose.x + pose.c * point.x - pose.s * point.y,
+                     pose.y + pose.s * point.x + pose.c * point.y, sample)) {
+      continue;
+    }
+    sum += point.weight * (sample.value > kFree ? -0.5F : 1.0F - std::abs(sample.value));
+  }
+  return weight > 0.0F ? static_cast<double>(sum / weight) : 0.0;
+}
+
+}  // namespace lifeline::slam

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "agents/slam/failure_detector.hpp"
+#include "agents/slam/gicp_matcher.hpp"
+#include "agents/slam/map_tracker.hpp"
+#include "agents/slam/model_matcher.hpp"
+#include "agents/slam/motion_model.hpp"
+#include "agents/slam/slam_types.hpp"
+#include "agents/slam/working_map.hpp"
+#include "common/grid/tsd_update.hpp"
+
+namespace lifeline::slam {
+
+enum class Matcher {
+  conventional,  ///< the paper's: ray-cast model, RANSAC, ICP, no failure detection
+  advanced,      ///< the paper's: the same with Algorithm 1 and GICP scan to scan
+  direct,        ///< ours: direct alignment and search, GICP scan to scan where that fails
+};
+
+/// The SlamConfig of idl/config.proto as plain values, with what users need not tune beside it.
+struct SlamConfig {
+  Matcher matcher = Matcher::direct;
+  double max_range_m = 30.0;
+  int min_model_points = 30;        ///< n_min of Algorithm 1
+  double max_mean_error_m = 0.08;   ///< E_TF0 of Algorithm 1, as a mean
+  int gicp_max_iterations = 100;
+
+  PushConfig push;
+  MotionConfig motion;
+  TrackerConfig tracker;
+  DirectConfig direct;
+  SearchConfig search;
+  RansacConfig ransac;
+  IcpConfig icp;
+  double push_distance_m = 0.05;  ///< a scan is pushed when the head moved this far ...
+  double push_turn_rad = 0.03;    ///< ... or turned this much ...
+  double push_interval_s = 0.25;  ///< ... or this time went by since the last push
+};
+
+/// What one scan did.
+struct SlamStep {
+  Pose2 T_map_head;
+  MatchEvidence evidence;
+  Verdict verdict = Verdict::rejected;
+  PoseSource source = PoseSource::dead_reckoning;
+  bool pushed = false;      ///< the scan entered the layer
+  int trust_percent = 0;    ///< how far the pose can be relied on; falls while nothing matches
+};
+
+/// One helmet's SLAM (paper, section 2). Frame: `map`, whose origin is the first pose. One owner.
+class TsdSlam {
+ public:
+  TsdSlam(SlamConfig config, GridGeometry geometry);
+
+  /// Places the scan, and pushes it if it was placed well.
+  [[nodiscard]] SlamStep step(const Scan2& scan, const MotionPrior& prior);
+
+  /// The own layer: own observations only, whatever the peers say.
+  [[nodiscard]] const TsdGrid& layer() const { return map_.own(); }
+  /// What scans are matched against.
+  [[nodiscard]] const WorkingMap& working_map() const { return map_; }
+  /// The layer's tiles changed since the last call, ordered.
+  [[nodiscard]] std::vector<TileIndex> take_changed_tiles();
+
+  /// Peers' cells in this map's frame (Eq. 8-10); nullptr takes a tile away.
+  void set_peer_tile(TileIndex tile, std::shared_ptr<const TsdTile> cells);
+  void clear_peers();
+  void set_own_weight(double w_T1);
+
+ private:
+  [[nodiscard]] SlamStep start(const Scan2& scan);
+  [[nodiscard]] MatchResult place(const Scan2& scan, const Prediction& prediction,
+                                  const Pose2& predicted_step);
+  [[nodiscard]] MatchResult match_previous_scan(const Prediction& prediction,
+                                                const Pose2& predicted_step) const;
+  [[nodiscard]] bool push_is_due(const Pose2& T_map_head, Timestamp stamp) const;
+  void push(const Scan2& scan, const Pose2& T_map_head);
+  void change_trust(Verdict verdict);
+
+  SlamConfig config_;
+  WorkingMap map_;
+  MotionModel motion_;
+  ModelMatcher model_matcher_;
+  MapTracker tracker_;
+  GicpMatcher gicp_;
+  FailureDetector detector_;
+  TsdUpdater updater_;
+  TsdView view_;
+  std::vector<SurfacePiece> pieces_;           ///< of the current scan
+  std::vector<SurfacePiece> previous_pieces_;  ///< D_(k-1)
+  std::set<TileIndex> changed_;
+  bool started_ = false;
+  int trust_percent_ = 0;
+  Pose2 pushed_at_;
+  Timestamp pushed_stamp_{};
+};
+
+}  // namespace lifeline::slam

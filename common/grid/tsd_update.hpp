@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+#include "common/grid/pose2.hpp"
+#include "common/grid/scan2.hpp"
+#include "common/grid/scan_raster.hpp"
+#include "common/grid/scan_surface.hpp"
+#include "common/grid/tsd_grid.hpp"
+
+namespace lifeline {
+
+/// How scans enter the grid.
+struct PushConfig {
+  double weight_cap = 32.0;  ///< W never grows beyond: the grid keeps learning. At most 256.
+  RasterConfig raster;
+};
+
+/// Two signed distances further apart than this (in TsdCell units) cannot both be true: the world
+/// has changed, and the old one loses weight with each such observation.
+inline constexpr int kContradiction = TsdCell::kTsdOne * 3 / 4;
+
+/// Eq. 2 and 3 for one cell: the running mean of `cell` and `seen`, both weighted, the weight capped at
+/// `weight_cap` (TsdCell units). An unknown `seen` changes nothing.
+///
+/// Beside the paper: a contradiction takes up to a quarter of the cell's weight away first, so that
+/// a door that moved is learnt in a few scans; and what lies deep behind a surface does not overrule
+/// a cell that was seen free from its own side - that is how thin walls survive.
+[[nodiscard]] inline TsdCell updated(TsdCell cell, TsdCell seen, int weight_cap) {
+  if (!seen.known()) return cell;
+  if (!cell.known()) return seen;
+  constexpr int kDeep = -TsdCell::kTsdOne * 2 / 5;
+  if (seen.tsd < kDeep && cell.tsd > 0 && cell.weight > 4 * seen.weight) return cell;
+  int weight = cell.weight;
+  if (std::abs(seen.tsd - cell.tsd) > kContradiction) {
+    weight -= weight * seen.weight / (4 * TsdCell::kWeightOne);
+  }
+  const int total = weight + seen.weight;
+  const int sum = cell.tsd * weight + seen.tsd * seen.weight;
+  const int half = sum >= 0 ? total / 2 : -total / 2;
+  return {static_cast<std::int16_t>((sum + half) / total),
+          static_cast<std::uint16_t>(std::min(total, weight_cap))};
+}
+
+/// Pushes scans into TSD grids. Keeps scratch memory between scans; one owner.
+class TsdUpdater {
+ public:
+  TsdUpdater(GridGeometry geometry, PushConfig config);
+
+  /// Updates `grid` (of the geometry given at construction) with a scan taken at `T_map_head`, whose
+  /// surfaces are `pieces`. `weight` in (0, 1] scales every w_k: how much this scan is trusted.
+  /// Cells beyond the largest tile index are left out. Returns the tiles in which any cell changed,
+  /// ordered by x, then y; valid until the next push.
+  std::span<const TileIndex> push(const Scan2& scan, std::span<const SurfacePiece> pieces,
+                                  const Pose2& T_map_head, double weight, TsdGrid& grid);
+
+ private:
+  [[nodiscard]] bool merge(const ScanRaster::Tile& seen, TsdTile& tile) const;
+
+  GridGeometry geometry_;
+  int weight_cap_;
+  ScanRaster raster_;
+  std::vector<TileIndex> changed_;
+};
+
+}  // namespace lifeline

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/grid/pose2.hpp"
+#include "common/grid/tile_index.hpp"
+#include "common/grid/tsd_cell.hpp"
+#include "common/grid/tsd_grid.hpp"
+
+namespace lifeline {
+
+/// A look at some tiles of a map, for loops that must be fast: a rectangle of tile pointers, read in
+/// cells counted from the rectangle's lower left corner, so that float is exact enough. Sees changes
+/// made to the tiles, not tiles that came or went since assign(). Any map with `find(TileIndex)` and
+/// `geometry()` can be looked at.
+class TsdView {
+ public:
+  /// Interpolated signed distance: `value` in [-1, 1] of the truncation distance, `gradient` of the
+  /// value per cell, towards the free side.
+  struct Sample {
+    float value;
+    Eigen::Vector2f gradient;
+  };
+
+  /// Looks at all tiles within `reach_m` of `centre_map` (and of the map's range), along x and y.
+  template <typename Map>
+  void assign(const Map& map, const Eigen::Vector2d& centre_map, double reach_m) {
+    set_bounds(map.geometry(), centre_map, reach_m);
+    for (std::int32_t y = 0; y < rows_; ++y) {
+      for (std::int32_t x = 0; x < columns_; ++x) {
+        tiles_.push_back(map.find({first_.x + x, first_.y + y}));
+      }
+    }
+  }
+
+  [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
+
+  /// The pose in cells from the view's corner.
+  [[nodiscard]] Pose2 to_view(const Pose2& T_map_x) const {
+    const CellIndex corner = first_cell(first_);
+    return {T_map_x.x_m / geometry_.cell_size_m - corner.x,
+            T_map_x.y_m / geometry_.cell_size_m - corner.y, T_map_x.yaw_rad};
+  }
+  [[nodiscard]] Eigen::Vector2d to_map(const Eigen::Vector2f& p_view) const {
+    const CellIndex corner = first_cell(first_);
+    return (p_view.cast<double>() + Eigen::Vector2d(corner.x, corner.y)) * geometry_.cell_size_m;
+  }
+
+  /// The tile at this place of the rectangle; nullptr where there is none, and outside.
+  [[nodiscard]] const TsdTile* tile(std::int32_t column, std::int32_t row) const {
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return nullptr;
+    return tiles_[static_cast<std::size_t>(row * columns_ + column)];
+  }
+
+  /// The cell, counted from the view's corner.
+  [[nodiscard]] TsdCell cell(std::int32_t x, std::int32_t y) const {
+    const TsdTile* found = tile(x >> 6, y >> 6);
+    return found == nullptr ? TsdCell{} : (*found)[offset_in_tile({x, y})];
+  }
+
+  /// Bilinear between the four cell centres around (x, y), in cells from the view's corner; false
+  /// where any of them is unknown.
+  [[nodiscard]] bool sample(float x, float y, Sample& into) const {
+    const float left = std::floor(x - 0.5F), below = std::floor(y - 0.5F);
+    const auto i = static_cast<std::int32_t>(left), j = static_cast<std::int32_t>(below);
+    TsdCell c00, c10, c01, c11;
+    if ((i & 63) != 63 && (j & 63) != 63) {  // all four in one tile
+      const TsdTile* found = tile(i >> 6, j >> 6);
+      if (found == nullptr) return false;
+      const TsdCell* corner = found->data() + offset_in_tile({i, j});
+      c00 = corner[0];
+      c10 = corner[1];
+      c01 = corner[kTileSide];
+      c11 = corner[kTileSide + 1];
+    } else {
+      c00 = cell(i, j);
+      c10 = cell(i + 1, j);
+      c01 = cell(i, j + 1);
+      c11 = cell(i + 1, j + 1);
+    }
+    if (!c00.known() || !c10.known() || !c01.known() || !c11.known()) return false;
+    const float a = x - 0.5F - left, b = y - 0.5F - below;
+    const float v00 = c00.value(), v10 = c10.value(), v01 = c01.value(), v11 = c11.value();
+    const float low = v00 + a * (v10 - v00), high = v01 + a * (v11 - v01);
+    into.value = low + b * (high - low);
+    into.gradient = {(v10 - v00) + b * ((v11 - v01) - (v10 - v00)), high - low};
+    return true;
+  }
+
+ private:
+  void set_bounds(const GridGeometry& geometry, const Eigen::Vector2d& centre_map, double reach_m) {
+    geometry_ = geometry;
+    const double tile_m = geometry.cell_size_m * kTileSide;
+    const auto index = [&](double at_m) {
+      return static_cast<std::int32_t>(std::clamp(std::floor(at_m / tile_m),
+                                                  -static_cast<double>(kMaxTileIndex),
+                                                  static_cast<double>(kMaxTileIndex - 1)));
+    };
+    first_ = {index(centre_map.x() - reach_m), index(centre_map.y() - reach_m)};
+    columns_ = index(centre_map.x() + reach_m) - first_.x + 1;
+    rows_ = index(centre_map.y() + reach_m) - first_.y + 1;
+    tiles_.clear();
+    tiles_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  }
+
+  GridGeometry geometry_;
+  TileIndex first_{};
+  std::int32_t columns_ = 0;
+  std::int32_t rows_ = 0;
+  std::vector<const TsdTile*> tiles_;
+};
+
+}  // namespace lifeline
