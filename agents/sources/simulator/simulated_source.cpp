@@ -1,0 +1,80 @@
+#include "agents/sources/simulator/simulated_source.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "agents/sources/simulator/draw.hpp"
+#include "agents/sources/simulator/free_space.hpp"
+#include "agents/sources/simulator/load_plan.hpp"
+#include "agents/sources/simulator/ray_scene.hpp"
+#include "agents/sources/simulator/sensors.hpp"
+#include "agents/sources/simulator/simulator_options.hpp"
+#include "agents/sources/simulator/walk.hpp"
+
+namespace lifeline::sources {
+namespace {
+
+/// When every simulated walk begins: any time would do, as long as it is always the same.
+constexpr Timestamp kStart{std::chrono::seconds(1'600'000'000)};
+
+/// Noise of its own for every walker, sensor by sensor.
+std::uint64_t sensor_seed(const WalkerNumber& number, std::uint64_t sensor) {
+  return stir(stir(number.seed, static_cast<std::uint64_t>(number.walker)), sensor);
+}
+
+class SimulatedSource final : public sensing::ScanSource {
+ public:
+  SimulatedSource(const FloorPlan& plan, FreeSpace space, const SimulatorOptions& options)
+      : options_(options),
+        scene_(plan.walls),
+        space_(std::move(space)),
+        walk_(space_, options.walker),
+        lidar_(options.lidar, sensor_seed(options.walker, 10)),
+        ahrs_(sensor_seed(options.walker, 11)) {}
+
+  Result<std::optional<sensing::RawScan>> next() override {
+    const double t_s = static_cast<double>(sweeps_) / options_.lidar.turns_per_s;
+    if (options_.duration_s ? t_s >= *options_.duration_s : walk_.first_round_done()) {
+      return std::optional<sensing::RawScan>();
+    }
+    sensing::RawScan scan = lidar_.sweep(
+        scene_, [this](double at_s) { return walk_.pose_at(at_s); }, t_s);
+    scan.stamp = kStart + from_seconds(t_s);
+    if (options_.ahrs) {
+      scan.attitude = ahrs_.measure(scan.T_world_head_truth->yaw_rad,
+                                    sweeps_ == 0 ? 0.0 : 1.0 / options_.lidar.turns_per_s);
+    }
+    ++sweeps_;
+    return std::optional(std::move(scan));
+  }
+
+ private:
+  SimulatorOptions options_;
+  RayScene scene_;
+  FreeSpace space_;
+  Walk walk_;  // walks on space_
+  SimulatedLidar lidar_;
+  SimulatedAhrs ahrs_;
+  std::int64_t sweeps_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<sensing::ScanSource>> open_simulated_source(const SourceSpec& spec) {
+  const auto options = read_simulator_options(spec);
+  if (!options) return forward_error(options);
+  const auto plan = load_plan(spec.target, options->office);
+  if (!plan) return forward_error(plan);
+  auto space = FreeSpace::make(*plan);
+  if (!space) return forward_error(space);
+  return std::make_unique<SimulatedSource>(*plan, std::move(*space), *options);
+}
+
+Result<FloorPlan> load_plan(const SourceSpec& spec) {
+  const auto options = read_simulator_options(spec);
+  if (!options) return forward_error(options);
+  return load_plan(spec.target, options->office);
+}
+
+}  // namespace lifeline::sources
