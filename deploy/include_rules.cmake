@@ -29,8 +29,8 @@ layer(common/dds ${values} common/wire ${adapters})
 layer(agents/sources ${values} agents/sensing idl ${adapters})
 layer(agents/sources/simulator ${values} agents/sensing idl ${adapters})
 
-# Programs wire everything together, and tests look at everything.
-set(free_files "(^|/)main\\.cpp$" "_command\\.(cpp|hpp)$" "^deploy/demo/" "^tests/")
+# Programs (main and their commands, settings and reports) wire everything together, and tests look at everything.
+set(free_files "^(agents|coordinator)/([a-z_]+_)?(main|command|settings|report)\\.(cpp|hpp)$" "^deploy/" "^tests/")
 
 # Libraries that stay behind one door each.
 set(doors

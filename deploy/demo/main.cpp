@@ -1,0 +1,136 @@
+// lifeline-demo: lets helmets and a coordinator map a building together, as processes of their own,
+// and judges the outcome.
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "agents/sources/open_source.hpp"
+#include "common/base/config_folder.hpp"
+#include "common/base/ids.hpp"
+#include "deploy/demo/fleet.hpp"
+#include "deploy/demo/free_domain.hpp"
+#include "deploy/demo/options.hpp"
+#include "deploy/demo/report_folder.hpp"
+
+namespace lifeline::demo {
+namespace {
+
+constexpr double kLogPlay_s = 35.0;
+constexpr double kWalk_s = 120.0;  ///< simulated
+constexpr double kWalkSpeed = 3.0;
+constexpr double kTimeToSettle_s = 60.0;
+constexpr Duration kTimeToReport = std::chrono::seconds(15);
+constexpr Duration kTimeToStop = std::chrono::seconds(5);
+
+/// What every helmet plays. Opens a simulated building once, so that a bad plan is told before
+/// anything starts; a log has been read as a whole by then.
+Result<FleetPlan> plan_fleet(const Options& options) {
+  if (!options.log.empty()) return plan_log(options.log, options.helmets, kLogPlay_s);
+  FleetPlan fleet = plan_walk({.plan = options.plan.empty() ? "office" : options.plan,
+                               .duration_s = kWalk_s,
+                               .speed = kWalkSpeed,
+                               .seed = options.seed},
+                              options.helmets);
+  if (auto opened = sources::open_source(fleet.helmets.front().source); !opened) {
+    return forward_error(opened);
+  }
+  return fleet;
+}
+
+Result<Mission> plan_mission(const Options& options, const FleetPlan& fleet) {
+  const auto config = config_folder();
+  if (!config) return forward_error(config);
+  auto programs = find_programs(std::filesystem::canonical("/proc/self/exe"), *config);
+  if (!programs) return forward_error(programs);
+  if (auto made = prepare_report_folder(options.report); !made) return forward_error(made);
+  const std::uint64_t number = random_incarnation().value;
+  const auto domain = pick_free_domain(number, static_cast<int>(options.helmets) + 1);
+  if (!domain) return forward_error(domain);
+  return Mission{.programs = *std::move(programs),
+                 .report = std::filesystem::canonical(options.report),
+                 .mission_id = fmt::format("demo-{:08x}", number & 0xffffffff),
+                 .domain_id = *domain,
+                 .time_limit_s = options.time_limit_s > 0.0 ? options.time_limit_s
+                                                            : fleet.play_s + kTimeToSettle_s};
+}
+
+/// Runs the processes from start to end; gives whether they came to one common map in time.
+Result<bool> play(const Mission& mission, const FleetPlan& plan) {
+  SignalWatch signals;
+  auto fleet = Fleet::start(mission, plan);
+  if (!fleet) return forward_error(fleet);
+  const auto end = fleet->wait(signals);
+  if (!end || *end == Fleet::End::asked_to_stop) {
+    fleet->stop(signals, kTimeToStop);
+    if (!end) return forward_error(end);
+    return fail(ErrorCode::unavailable, "stopped");
+  }
+  fleet->stop(signals, kTimeToReport);
+  const int status = fleet->coordinator_status().value_or(1);
+  if (status > 1) {
+    return fail(ErrorCode::unavailable, "the coordinator failed with status {}: {}", status,
+                last_line(mission.report / "coordinator.log"));
+  }
+  return status == 0;
+}
+
+void print_outcome(const nlohmann::json& summary, const std::filesystem::path& folder) {
+  fmt::print("\n{}\n", render_summary(summary));
+  for (const auto& picture : pictures(folder)) fmt::print("picture: {}\n", picture.string());
+  fmt::print("summary: {}\n", (folder / "summary.json").string());
+}
+
+Result<bool> run(const Options& options) {
+  const SystemClock clock;
+  const SteadyTime start = clock.steady_now();
+  const auto plan = plan_fleet(options);
+  if (!plan) return forward_error(plan);
+  const auto mission = plan_mission(options, *plan);
+  if (!mission) return forward_error(mission);
+  fmt::print("{} helmets and a coordinator in DDS domain {}, about {:.0f} s of scans\n",
+             plan->helmets.size(), mission->domain_id, plan->play_s);
+  for (const HelmetPlan& helmet : plan->helmets) {
+    fmt::print("  {:<10} {}\n", helmet.agent_id, helmet.source);
+  }
+  std::fflush(stdout);
+
+  const auto settled = play(*mission, *plan);
+  if (!settled) return forward_error(settled);
+  const auto summary = make_summary(read_outcomes(mission->report, *plan),
+                                    read_report(mission->report / "coordinator.json"),
+                                    to_seconds(clock.steady_now() - start));
+  if (auto written = write_summary(mission->report, summary); !written) {
+    return forward_error(written);
+  }
+  print_outcome(summary, options.report);
+  const bool shared = summary["shared"] == true, one_map = is_one_map(summary);
+  fmt::print("{:.0f} s: {}\n", summary["wall_s"].get<double>(),
+             shared && one_map && *settled ? "all share one map"
+             : !*settled                   ? "the helmets did not come to share one map in time"
+             : !one_map                    ? "the helmets are not all in one map"
+                                           : "the maps are not the same on all machines");
+  return shared && one_map && *settled;
+}
+
+}  // namespace
+}  // namespace lifeline::demo
+
+int main(int argc, char** argv) {
+  try {
+    const auto options = lifeline::demo::parse_options(argc, argv);
+    if (const int* status = std::get_if<int>(&options)) return *status;
+    const auto shared = lifeline::demo::run(std::get<lifeline::demo::Options>(options));
+    if (shared) return *shared ? 0 : 1;
+    std::fflush(stdout);
+    fmt::print(stderr, "lifeline demo: {}\n", shared.error().text);
+    return shared.error().code == lifeline::ErrorCode::wrong_use ? 2 : 1;
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "lifeline demo: {}\n", problem.what());
+    return 1;
+  }
+}

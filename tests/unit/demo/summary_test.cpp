@@ -1,0 +1,120 @@
+#include "deploy/demo/summary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lifeline::demo {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+json report(const std::string& hash) {
+  return {{"scans", 400},          {"scans_dropped", 2}, {"common_map_sha256", hash},
+          {"fingerprint", "f00d"}, {"failures", 0},      {"slam_ms_median", 1.5},
+          {"slam_ms_p99", 4.25},   {"bytes_sent", 98765}};
+}
+
+/// Two helmets in a world where bravo's map lies 5 m ahead of alpha's.
+std::vector<HelmetOutcome> two_helmets(const std::string& hash_a, const std::string& hash_b) {
+  return {{"alpha", report(hash_a), 0.03, Pose2{1.0, 1.0, 0.0}},
+          {"bravo", report(hash_b), 0.04, Pose2{6.0, 1.0, 0.0}}};
+}
+
+json merge(bool accepted, double x_m) {
+  return {{"a", "alpha"},          {"b", "bravo"},
+          {"accepted", accepted},  {"T_a_b", {{"x_m", x_m}, {"y_m", 0.0}, {"yaw_rad", 0.0}}},
+          {"s_overlapping", 0.25}, {"acceptance_index", 0.97},
+          {"at_s", 21.5},          {"overlap_centre_b", {{"x_m", 2.0}, {"y_m", 3.0}}}};
+}
+
+json coordinator(const std::string& hash) {
+  return {{"common_map_sha256", hash}, {"epoch", 2}, {"merges", json::array({merge(true, 5.06)})}};
+}
+
+TEST(Summary, has_the_fields_that_are_promised) {
+  const json summary = make_summary(two_helmets("abc1", "abc1"), coordinator("abc1"), 47.5);
+  EXPECT_EQ(summary["shared"], true);
+  EXPECT_EQ(summary["wall_s"], 47.5);
+  EXPECT_EQ(summary["coordinator"], json({{"common_map_sha256", "abc1"}}));
+  EXPECT_EQ(summary["helmets"][1], json({{"agent_id", "bravo"},
+                                         {"scans", 400},
+                                         {"scans_dropped", 2},
+                                         {"common_map_sha256", "abc1"},
+                                         {"fingerprint", "f00d"},
+                                         {"trajectory_rmse_m", 0.04},
+                                         {"slam_ms_median", 1.5},
+                                         {"slam_ms_p99", 4.25},
+                                         {"bytes_sent", 98765}}));
+}
+
+TEST(Summary, judges_a_merge_against_the_truth) {
+  const json summary = make_summary(two_helmets("abc1", "abc1"), coordinator("abc1"), 1.0);
+  const json& judged = summary["merges"][0];
+  EXPECT_EQ(judged["a"], "alpha");
+  EXPECT_EQ(judged["accepted"], true);
+  EXPECT_EQ(judged["s_overlapping"], 0.25);
+  EXPECT_EQ(judged["acceptance_index"], 0.97);
+  EXPECT_EQ(judged["at_s"], 21.5);
+  EXPECT_NEAR(judged["error_m"].get<double>(), 0.06, 1e-9);
+  EXPECT_NEAR(judged["error_at_origin_m"].get<double>(), 0.06, 1e-9);
+  EXPECT_NEAR(judged["error_deg"].get<double>(), 0.0, 1e-9);
+}
+
+TEST(Summary, leaves_errors_open_where_the_truth_is_unknown) {
+  auto helmets = two_helmets("abc1", "abc1");
+  helmets[0].T_world_map.reset();
+  helmets[0].rmse_m.reset();
+  const json summary = make_summary(helmets, coordinator("abc1"), 1.0);
+  EXPECT_TRUE(summary["merges"][0]["error_m"].is_null());
+  EXPECT_TRUE(summary["merges"][0]["error_deg"].is_null());
+  EXPECT_TRUE(summary["helmets"][0]["trajectory_rmse_m"].is_null());
+}
+
+TEST(Summary, is_not_shared_when_one_hash_differs) {
+  const auto shared = [](const char* a, const char* b, const char* c) {
+    return make_summary(two_helmets(a, b), coordinator(c), 1.0)["shared"];
+  };
+  EXPECT_EQ(shared("abc1", "abc1", "abc1"), true);
+  EXPECT_EQ(shared("abc1", "abc2", "abc1"), false);
+  EXPECT_EQ(shared("abc1", "abc1", "abc2"), false);
+}
+
+TEST(Summary, is_not_shared_when_nobody_has_a_common_map) {
+  EXPECT_EQ(make_summary(two_helmets("0000", "0000"), coordinator("0000"), 1.0)["shared"], false);
+  EXPECT_EQ(make_summary(two_helmets("", ""), coordinator(""), 1.0)["shared"], false);
+}
+
+TEST(Summary, bears_missing_and_odd_reports) {
+  auto helmets = two_helmets("abc1", "abc1");
+  helmets[1].report = json();
+  EXPECT_EQ(make_summary(helmets, json(), 1.0)["shared"], false);
+  helmets[1].report = json::array({1, 2});
+  const json odd{{"common_map_sha256", 7}, {"merges", json::array({json(3), json::object()})}};
+  const json summary = make_summary(helmets, odd, 1.0);
+  EXPECT_EQ(summary["shared"], false);
+  EXPECT_TRUE(summary["helmets"][1]["scans"].is_null());
+  EXPECT_FALSE(is_one_map(summary));
+  EXPECT_THAT(render_summary(summary), HasSubstr("bravo"));
+}
+
+TEST(IsOneMap, counts_accepted_merges_only) {
+  json seen = coordinator("abc1");
+  EXPECT_TRUE(is_one_map(make_summary(two_helmets("abc1", "abc1"), seen, 1.0)));
+  seen["merges"] = json::array({merge(false, 5.0)});
+  EXPECT_FALSE(is_one_map(make_summary(two_helmets("abc1", "abc1"), seen, 1.0)));
+}
+
+TEST(RenderSummary, shows_helmets_hashes_and_errors) {
+  const std::string table =
+      render_summary(make_summary(two_helmets("abc1", "abc1"), coordinator("abc1"), 1.0));
+  EXPECT_THAT(table, HasSubstr("alpha"));
+  EXPECT_THAT(table, HasSubstr("abc1"));
+  EXPECT_THAT(table, HasSubstr("alpha - bravo"));
+  EXPECT_THAT(table, HasSubstr("0.060"));
+  EXPECT_THAT(table, Not(HasSubstr("none")));
+}
+
+}  // namespace
+}  // namespace lifeline::demo
