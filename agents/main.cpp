@@ -1,0 +1,36 @@
+#include <CLI/CLI.hpp>
+
+#include "agents/run_command.hpp"
+#include "common/base/command_line.hpp"
+
+namespace lifeline {
+namespace {
+
+void add_run_command(CLI::App& app, AgentRunOptions& options, int& status) {
+  CLI::App* run = app.add_subcommand("run", "Map, and share the map, until stopped");
+  run->add_option("--id", options.id, "This helmet's name, unique in the mission")->required();
+  run->add_option("--source", options.source,
+                  "Where scans come from, e.g. sim:office or carmen:LOG.gz")
+      ->required();
+  run->add_option("--config", options.config, "Configuration file (docs/parameters.md)");
+  run->add_option("--report", options.report,
+                  "Folder that takes map, trajectory and counters at the end");
+  run->add_option("--mission", options.mission, "Mission name; overrides the configuration");
+  run->add_option("--domain", options.domain, "DDS domain; overrides the configuration");
+  run->add_option("--qos", options.qos, "QoS profile file; overrides the configuration");
+  run->add_option("--matcher", options.matcher,
+                  "conventional, advanced or direct; overrides the configuration");
+  run->callback([&options, &status] { status = run_agent_command(options); });
+}
+
+}  // namespace
+}  // namespace lifeline
+
+int main(int argc, char** argv) {
+  CLI::App app("Lifeline's helmet: maps a building from lidar scans and shares the map",
+               "lifeline-agent");
+  int status = 0;
+  lifeline::AgentRunOptions run_options;
+  lifeline::add_run_command(app, run_options, status);
+  return lifeline::parse_command_line(app, argc, argv, status);
+}
