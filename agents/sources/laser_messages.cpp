@@ -71,7 +71,7 @@ Result<sensing::RawScan> decode_laser_scan(std::span<const std::uint8_t> bytes,
   const float time_increment_s = reader.read<float>();
   (void)reader.read<float>();  // scan_time: from one sweep to the next
   scan.range_min_m = reader.read<float>();
-  scan.range_max_m = reader.read<float>();
+  scan.range_max_m = std::min<double>(reader.read<float>(), kFarthest_m);
   scan.ranges_m = reader.read_floats(kMaxBeams);
   reader.skip_floats();  // intensities
   if (!reader.ok()) {
@@ -82,7 +82,6 @@ Result<sensing::RawScan> decode_laser_scan(std::span<const std::uint8_t> bytes,
   if (const auto checked = check_geometry(scan); !checked) return forward_error(checked);
   scan.stamp = *stamp;
   scan.sweep_time = sweep_time(time_increment_s, scan.ranges_m.size());
-  scan.range_max_m = std::min(scan.range_max_m, kFarthest_m);
   return scan;
 }
 

@@ -75,7 +75,7 @@ Result<bool> step(const std::string& file, sqlite3* database, sqlite3_stmt* stat
 Result<void> check_tables(const std::string& file, sqlite3* database) {
   const auto query = prepare(file, database,
                              "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN "
-                             "('topics', 'messages') AND sql NOT LIKE 'CREATE VIRTUAL%'");
+                             "('topics', 'messages')");
   if (!query) return forward_error(query);
   const auto row = step(file, database, query->get());
   if (!row) return forward_error(row);

@@ -1,0 +1,68 @@
+#include "agents/sources/open_source.hpp"
+
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/recordings.hpp"
+
+namespace lifeline::sources {
+namespace {
+
+using test::carmen_log;
+using test::RecordingFolder;
+using ::testing::HasSubstr;
+
+std::string refusal(std::string_view source, SourcePace pace = kUnpaced) {
+  const auto opened = open_source(source, pace);
+  if (opened) return "opened";
+  EXPECT_EQ(opened.error().code, ErrorCode::wrong_use);
+  return opened.error().text;
+}
+
+TEST(OpenSource, ListsTheKindsWhenItKnowsNotTheOneAskedFor) {
+  EXPECT_EQ(refusal("ros2:/scan,/imu"),
+            "source 'ros2:/scan,/imu': unknown kind 'ros2'; there are: carmen, rosbag2, sim");
+  EXPECT_THAT(refusal("rplidar:/dev/ttyUSB0"), HasSubstr("unknown kind 'rplidar'"));
+  EXPECT_THAT(refusal("intel.log.gz"), HasSubstr("does not begin with a kind"));
+}
+
+TEST(OpenSource, ReadsTheRateForEveryKind) {
+  const RecordingFolder folder;
+  const std::string path = folder.write("a.log", carmen_log(180, 2));
+  EXPECT_THAT(refusal("carmen:" + path + "?rate=fast"), HasSubstr("rate=fast is none of"));
+  EXPECT_THAT(refusal("rosbag2:" + path + "?rate=fast"), HasSubstr("rate=fast is none of"));
+  EXPECT_TRUE(open_source("carmen:" + path + "?rate=x2"));
+}
+
+TEST(OpenSource, PlaysWithoutWaitingByDefault) {
+  const RecordingFolder folder;
+  const auto source = open_source("carmen:" + folder.write("a.log", carmen_log(180, 500)));
+  ASSERT_TRUE(source);
+  for (int i = 0; i < 500; ++i) ASSERT_TRUE((*source)->next().value());  // 500 s as recorded
+  EXPECT_FALSE((*source)->next().value());
+}
+
+TEST(OpenSource, AnOptionOverridesTheDefaultPace) {
+  const RecordingFolder folder;
+  const std::string path = folder.write("a.log", carmen_log(180, 500));
+  const auto source = open_source("carmen:" + path + "?rate=max", kRealTime);
+  ASSERT_TRUE(source);
+  for (int i = 0; i < 500; ++i) ASSERT_TRUE((*source)->next().value());
+}
+
+TEST(OpenSource, AStopEndsASourceThatWaitsForItsNextScan) {
+  const RecordingFolder folder;
+  std::stop_source stop;
+  const std::string log = test::flaser_line(180, 0, "0") + test::flaser_line(180, 1, "3600");
+  const auto source =
+      open_source("carmen:" + folder.write("a.log", log), kRealTime, stop.get_token());
+  ASSERT_TRUE(source);
+  EXPECT_TRUE((*source)->next().value());
+  std::jthread stopper([&] { stop.request_stop(); });
+  EXPECT_FALSE((*source)->next().value());  // an hour early
+}
+
+}  // namespace
+}  // namespace lifeline::sources
