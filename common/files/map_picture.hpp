@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/base/result.hpp"
+#include "common/grid/occupancy_grid.hpp"
+
+namespace lifeline::files {
+
+/// Where somebody went, in the map's frame (m). Points that are not finite are left out.
+struct PicturePath {
+  std::string name;
+  std::vector<Eigen::Vector2d> points;
+  /// Which of the colours, so that somebody has the same one on every picture; by default the place
+  /// in the list.
+  std::optional<std::size_t> colour = {};
+};
+
+/// Draws a map as PNG for people: explored floor, walls, the unknown hatched, each path in a colour
+/// that colour-blind people tell apart (Okabe and Ito) from a ring at its start to a disc with its
+/// name at its end, a legend and a scale bar. x goes right, y up. The sides are 400 to 4000 pixels;
+/// large maps are drawn with several cells to a pixel, of which a wall always shows.
+[[nodiscard]] Result<void> write_map_picture(const std::filesystem::path& file,
+                                             const OccupancyGrid& grid,
+                                             const std::vector<PicturePath>& paths,
+                                             const std::string& title);
+
+}  // namespace lifeline::files
