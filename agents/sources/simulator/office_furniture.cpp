@@ -35,7 +35,7 @@ class Furnisher {
     }
     for (const Box& corridor : layout_.corridors) {
       const int ribs = static_cast<int>(corridor.sizes().maxCoeff() / 4.0);
-      for (int i = 0; i < ribs; ++i) try_piece([&] { return rib(corridor); });
+      for (int i = 0; i < ribs; ++i) add_rib(corridor);
     }
     return std::move(furniture_);
   }
@@ -81,11 +81,18 @@ class Furnisher {
     return against_wall(room, draw_.below(4), draw_.between(0.7, 2.0), draw_.between(0.35, 0.6));
   }
 
-  /// A pillar that stands out of a corridor's wall a little.
-  Box rib(const Box& corridor) {
+  /// A pillar that stands out of a corridor's wall a little; not where another corridor meets it.
+  void add_rib(const Box& corridor) {
     const bool along_x = corridor.sizes().x() > corridor.sizes().y();
     const int side = (along_x ? 0 : 1) + 2 * draw_.below(2);
-    return against_wall(corridor, side, draw_.between(0.3, 0.6), draw_.between(0.1, 0.22));
+    const Box rib = against_wall(corridor, side, draw_.between(0.3, 0.6), draw_.between(0.1, 0.22));
+    const bool at_mouth =
+        std::any_of(layout_.corridors.begin(), layout_.corridors.end(), [&](const Box& other) {
+          return &other != &corridor && grown(other, kPassageM).intersects(rib);
+        });
+    if (at_mouth || !is_clear(rib)) return;
+    take(rib);
+    furniture_.boxes.push_back(rib);
   }
 
   void add_standing(const Box& room) {

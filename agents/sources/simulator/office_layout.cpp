@@ -122,7 +122,8 @@ class OfficePlanner {
   void fill_band(std::size_t s, std::size_t b, bool crossed) {
     const Section& section = sections_[s];
     const bool first = s == 0, last = s + 1 == sections_.size();
-    Band band{{section.x.low + (first ? 0.0 : wall_m_), section.x.high},
+    // A wall towards the next section on both sides of its border: the corridors jog there.
+    Band band{{section.x.low + (first ? 0.0 : wall_m_), section.x.high - (last ? 0.0 : wall_m_)},
               y_,
               b > 0,
               b < section.corridors.size()};

@@ -1,0 +1,192 @@
+#include "agents/sources/simulator/simulated_source.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/simulator/simulated_plans.hpp"
+
+namespace lifeline::sources {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Error open_error(const std::string& source) {
+  const auto opened = open_simulated_source(parse_source_spec(source).value());
+  EXPECT_FALSE(opened.has_value()) << source;
+  return opened ? Error{} : opened.error();
+}
+
+bool same_scans(const std::vector<sensing::RawScan>& a, const std::vector<sensing::RawScan>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& u, const auto& v) {
+    return u.ranges_m == v.ranges_m && u.stamp == v.stamp &&
+           u.attitude->yaw_rad == v.attitude->yaw_rad &&
+           u.T_world_head_truth->x_m == v.T_world_head_truth->x_m &&
+           u.T_world_head_truth->y_m == v.T_world_head_truth->y_m &&
+           u.T_world_head_truth->yaw_rad == v.T_world_head_truth->yaw_rad;
+  });
+}
+
+TEST(SimulatedSource, GivesTenScansASecondForAsLongAsAsked) {
+  const auto scans = support::scans_of("sim:office?duration=3&beams=90");
+
+  ASSERT_EQ(scans.size(), 30U);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    EXPECT_EQ(scans[i].ranges_m.size(), 90U);
+    EXPECT_EQ(scans[i].stamp - scans[0].stamp,
+              std::chrono::milliseconds(100) * static_cast<int>(i));
+    EXPECT_TRUE(scans[i].attitude.has_value());
+    EXPECT_TRUE(scans[i].T_world_head_truth.has_value());
+    EXPECT_FALSE(scans[i].T_odom_head.has_value());
+  }
+}
+
+TEST(SimulatedSource, IsAnRplidarA3ByDefault) {
+  const auto scans = support::scans_of("sim:office", 1);
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans[0].ranges_m.size(), 1600U);
+  EXPECT_DOUBLE_EQ(scans[0].range_max_m, 25.0);
+  EXPECT_EQ(scans[0].sweep_time, Duration::zero());
+}
+
+TEST(SimulatedSource, WithoutADurationTheWalkEndsWhenEverythingWasSeen) {
+  const auto scans = support::scans_of("sim:office?width=10&depth=10&beams=8");
+  EXPECT_GT(scans.size(), 200U);
+  EXPECT_LT(scans.size(), 3000U);
+}
+
+TEST(SimulatedSource, IsTheSameBitForBitForTheSameOptions) {
+  const std::string source =
+      "sim:office?seed=3&walk_seed=5&walker=1&walkers=2&duration=5&beams=100";
+  EXPECT_TRUE(same_scans(support::scans_of(source), support::scans_of(source)));
+}
+
+TEST(SimulatedSource, EverySeedMatters) {
+  const auto scans = support::scans_of("sim:office?duration=2&beams=100");
+  for (const char* option : {"seed=9", "walk_seed=9", "walker=1", "walkers=3&walker=2"}) {
+    const auto others = support::scans_of(std::string("sim:office?duration=2&beams=100&") + option);
+    EXPECT_FALSE(same_scans(scans, others)) << option;
+  }
+}
+
+TEST(SimulatedSource, WalkersOfOneBuildingSeeTheSameWalls) {
+  const auto spec = parse_source_spec("sim:office?seed=4").value();
+  const FloorPlan plan = load_plan(spec).value();
+  for (const char* walker : {"0", "1", "2"}) {
+    const auto scans = support::scans_of(
+        std::string("sim:office?seed=4&duration=4&beams=60&noise=0&dropout=0&walkers=3&walker=") +
+        walker);
+    for (const auto& scan : scans) {
+      for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+        const double angle = scan.first_angle_rad + scan.angle_step_rad * static_cast<double>(i);
+        const double range = scan.ranges_m[i];
+        if (!std::isfinite(range)) continue;
+        const Eigen::Vector2d p_world =
+            *scan.T_world_head_truth *
+            Eigen::Vector2d(range * std::cos(angle), range * std::sin(angle));
+        double off = 1.0;
+        for (const auto& wall : plan.walls) off = std::min(off, distance_to(wall, p_world));
+        EXPECT_LT(off, 0.001);
+      }
+    }
+  }
+}
+
+TEST(SimulatedSource, WithoutAPriorThereIsNoAttitude) {
+  for (const auto& scan : support::scans_of("sim:office?prior=none&duration=1&beams=8")) {
+    EXPECT_FALSE(scan.attitude.has_value());
+  }
+  for (const auto& scan : support::scans_of("sim:office?prior=ahrs&duration=1&beams=8")) {
+    EXPECT_TRUE(scan.attitude.has_value());
+  }
+}
+
+TEST(SimulatedSource, TheAttitudeFollowsTheTruth) {
+  const auto scans = support::scans_of("sim:office?duration=60&beams=4");
+  const auto offset = [&](const sensing::RawScan& scan) {
+    return normalise_angle(scan.attitude->yaw_rad - scan.T_world_head_truth->yaw_rad);
+  };
+  for (const auto& scan : scans) {
+    EXPECT_LT(std::abs(normalise_angle(offset(scan) - offset(scans.front()))), 0.08);
+  }
+}
+
+TEST(SimulatedSource, HzAndSweepSetTheTimesOfBeams) {
+  const auto scans = support::scans_of("sim:office?hz=5&sweep=on&duration=2&beams=100");
+  ASSERT_EQ(scans.size(), 10U);
+  EXPECT_EQ(scans[1].stamp - scans[0].stamp, std::chrono::milliseconds(200));
+  EXPECT_NEAR(to_seconds(scans[0].sweep_time), 0.198, 1e-6);
+}
+
+TEST(SimulatedSource, WalksThroughAHouseExpoPlan) {
+  const auto files = support::houseexpo_files();
+  if (files.empty()) GTEST_SKIP() << "the HouseExpo plans are not here";
+  const auto scans = support::scans_of("sim:" + files.front().string() + "?duration=5&beams=90");
+  EXPECT_EQ(scans.size(), 50U);
+}
+
+TEST(SimulatedSource, AtItsEndItStaysAtItsEnd) {
+  auto source = open_simulated_source(parse_source_spec("sim:office?duration=0.1&beams=8").value());
+  ASSERT_TRUE((*source)->next().value().has_value());
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE((*source)->next().value().has_value());
+}
+
+TEST(SimulatedSource, RefusesUnknownAndSenselessOptions) {
+  for (const char* options :
+       {"duration=0",  "duration=-3", "duration=nan", "duration=inf",  "duration=1e9",
+        "duration=x",  "beams=0",     "beams=-1",     "beams=1000000", "beams=3.5",
+        "hz=0",        "hz=1e9",      "noise=-1",     "noise=2",       "dropout=2",
+        "sweep=maybe", "prior=odom",  "seed=-1",      "seed=abc",      "walk_seed=-1",
+        "walker=-1",   "walker=16",   "walkers=0",    "walkers=17",    "walkers=3&walker=3",
+        "width=5",     "depth=1000",  "speed=3",      "Duration=3"}) {
+    const Error error = open_error(std::string("sim:office?") + options);
+    EXPECT_EQ(error.code, ErrorCode::wrong_use) << options;
+    const std::string text(options);
+    const std::size_t last = text.find('&') == std::string::npos ? 0 : text.find('&') + 1;
+    EXPECT_THAT(error.text, HasSubstr(text.substr(last, text.find('=', last) - last)));
+    EXPECT_THAT(error.text, Not(HasSubstr("\n")));
+  }
+}
+
+TEST(SimulatedSource, RefusesPlansThatAreNotThere) {
+  const support::TemporaryFolder folder;
+  const std::string missing = (folder.path() / "none.json").string();
+  EXPECT_EQ(open_error("sim:" + missing).code, ErrorCode::not_found);
+  EXPECT_THAT(open_error("sim:" + missing).text, HasSubstr(missing));
+
+  EXPECT_EQ(open_error("sim:castle").code, ErrorCode::wrong_use);
+  EXPECT_THAT(open_error("sim:castle").text, HasSubstr("no plan 'castle'"));
+
+  EXPECT_EQ(open_error("sim:map.png").code, ErrorCode::unsupported);
+  EXPECT_THAT(open_error("sim:map.png").text, HasSubstr("HouseExpo"));
+}
+
+TEST(SimulatedSource, RefusesPlansThatNobodyCanWalkIn) {
+  const support::TemporaryFolder folder;
+  const auto file =
+      folder.write("slot.json", R"({"verts":[[0,0],[50,0],[50,1],[49,0.3],[0,0.3]]})");
+  const Error error = open_error("sim:" + file.string());
+  EXPECT_EQ(error.code, ErrorCode::bad_data);
+  EXPECT_THAT(error.text, HasSubstr("no floor that is wide enough"));
+}
+
+TEST(LoadPlan, GivesTheBuildingTheOptionsName) {
+  const auto plan = load_plan(parse_source_spec("sim:office?width=30&depth=12&walker=3").value());
+  ASSERT_TRUE(plan.has_value());
+  EXPECT_NEAR(plan->bounds().sizes().y(), 12.0, 1e-9);
+  EXPECT_GT(plan->bounds().sizes().x(), 20.0);
+
+  EXPECT_FALSE(load_plan(parse_source_spec("sim:office?width=3").value()).has_value());
+  EXPECT_FALSE(load_plan(parse_source_spec("sim:none.json").value()).has_value());
+}
+
+}  // namespace
+}  // namespace lifeline::sources
