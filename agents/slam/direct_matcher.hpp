@@ -14,7 +14,8 @@ struct DirectConfig {
   int max_iterations = 15;
   double first_kernel_m = 0.12;   ///< scale of the robust weight at the start ...
   double last_kernel_m = 0.04;    ///< ... and in the end
-  double inlier_m = 0.06;         ///< residuals up to this agree with the map
+  double inlier_m = 0.10;         ///< residuals up to this agree with the map
+  float quality_power = 0.0F; float length_power=0.0F;
   double sigma_m = 0.03;          ///< of one residual
   double independent_points = 60; ///< how many independent residuals a scan is worth at most
 };

@@ -40,7 +40,7 @@ SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior) {
   Scan2 scan = raw;
   const Pose2 predicted_step = motion_.predicted_step(prior);
   deskew(scan, predicted_step, prior.elapsed);
-  pieces_ = extract_surface(scan);
+  pieces_ = extract_surface(scan, config_.surface);
   if (!started_) return start(scan);
 
   const Prediction prediction = motion_.predict(prior);
@@ -127,7 +127,7 @@ bool TsdSlam::push_is_due(const Pose2& T_map_head, Timestamp stamp) const {
 }
 
 void TsdSlam::push(const Scan2& scan, const Pose2& T_map_head) {
-  const auto changed = updater_.push(scan, pieces_, T_map_head, 1.0, map_.own());
+  const auto changed = updater_.push(pieces_, T_map_head, 1.0, map_.own());
   map_.note_own_changed(changed);
   tracker_.forget(changed);
   changed_.insert(changed.begin(), changed.end());

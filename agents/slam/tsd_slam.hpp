@@ -29,6 +29,7 @@ struct SlamConfig {
   double max_mean_error_m = 0.08;   ///< E_TF0 of Algorithm 1, as a mean
   int gicp_max_iterations = 100;
 
+  SurfaceConfig surface;
   PushConfig push;
   MotionConfig motion;
   TrackerConfig tracker;

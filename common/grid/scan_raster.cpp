@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace lifeline {
 namespace {
@@ -26,18 +25,27 @@ Interval solve(float slope, float constant, float low, float high) {
 std::int32_t first_centre_from(float x) { return static_cast<std::int32_t>(std::ceil(x - 0.5F)); }
 std::int32_t last_centre_to(float x) { return static_cast<std::int32_t>(std::floor(x - 0.5F)); }
 
-float reach_of(const Scan2& scan) {
+float reach_of(std::span<const SurfacePiece> pieces) {
   float reach_m = 0.0F;
-  for (const Beam2& beam : scan.beams) {
-    if (beam.kind == BeamKind::hit) reach_m = std::max(reach_m, beam.range_m);
-  }
+  for (const SurfacePiece& piece : pieces) reach_m = std::max(reach_m, piece.point.norm());
   return reach_m;
 }
 
-float spread_between(const Beam2& a, const Beam2& b) {
-  constexpr float kTurn = 6.2831853F;
-  const float apart = std::abs(a.angle_rad - b.angle_rad);
-  return std::min(apart, std::abs(kTurn - apart));
+/// How far along its beam free space is sure to reach before a piece: to a truncation distance from
+/// the surface, measured across it.
+float free_reach(const SurfacePiece& piece, float truncation_m) {
+  const float range_m = piece.point.norm();
+  const float incidence = std::max(-piece.normal.dot(piece.point) / range_m, 0.05F);
+  return std::max(0.0F, range_m - truncation_m / incidence);
+}
+
+/// The same where a surface may run from `piece` to the nearer neighbour `edge`, unseen.
+float free_reach_beside(const SurfacePiece& piece, const SurfacePiece& edge, float truncation_m) {
+  const Eigen::Vector2f chord = edge.point - piece.point;
+  const float range_m = piece.point.norm();
+  const float across = std::abs(chord.x() * piece.point.y() - chord.y() * piece.point.x()) /
+                       std::max(chord.norm() * range_m, 1e-6F);
+  return std::max(0.0F, range_m - truncation_m / std::max(across, 1e-3F));
 }
 
 }  // namespace
@@ -45,11 +53,11 @@ float spread_between(const Beam2& a, const Beam2& b) {
 ScanRaster::ScanRaster(GridGeometry geometry, RasterConfig config)
     : geometry_(geometry), config_(config) {}
 
-void ScanRaster::draw(const Scan2& scan, std::span<const SurfacePiece> pieces,
-                      const Pose2& T_map_head, float weight) {
+void ScanRaster::draw(std::span<const SurfacePiece> pieces, const Pose2& T_map_head,
+                      float weight) {
   clear();
   const double tile_m = geometry_.cell_size_m * kTileSide;
-  const double reach_m = reach_of(scan) + 2.0 * geometry_.truncation_m;
+  const double reach_m = reach_of(pieces) + 2.0 * geometry_.truncation_m;
   const auto tile_below = [&](double at_m) {
     return static_cast<std::int32_t>(std::floor((at_m - reach_m) / tile_m));
   };
@@ -62,7 +70,7 @@ void ScanRaster::draw(const Scan2& scan, std::span<const SurfacePiece> pieces,
   const Pose2 T_raster_head{T_map_head.x_m / geometry_.cell_size_m - corner.x,
                             T_map_head.y_m / geometry_.cell_size_m - corner.y, T_map_head.yaw_rad};
   for (const SurfacePiece& piece : pieces) draw_piece(piece, T_raster_head, weight);
-  trace_outline(scan, T_raster_head);
+  trace_outline(pieces, T_raster_head);
   fill_outline(weight * config_.free_weight);
 }
 
@@ -155,44 +163,39 @@ void ScanRaster::draw_row(const SurfacePiece& piece, std::int32_t row, std::int3
   }
 }
 
-void ScanRaster::trace_outline(const Scan2& scan, const Pose2& T_raster_head) {
+void ScanRaster::trace_outline(std::span<const SurfacePiece> pieces, const Pose2& T_raster_head) {
   outline_.clear();
-  const auto cell_m = static_cast<float>(geometry_.cell_size_m);
   const auto truncation_m = static_cast<float>(geometry_.truncation_m);
+  const std::size_t n = pieces.size();
+  reach_m_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) reach_m_[i] = free_reach(pieces[i], truncation_m);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (pieces[i].link != SurfaceLink::jump) continue;
+    const std::size_t before = i == 0 ? n - 1 : i - 1;
+    const bool is_near = pieces[i].point.squaredNorm() < pieces[before].point.squaredNorm();
+    const std::size_t near = is_near ? i : before, far = is_near ? before : i;
+    reach_m_[far] = std::min(
+        reach_m_[far], free_reach_beside(pieces[far], pieces[near], truncation_m));
+  }
+  const auto cell_m = static_cast<float>(geometry_.cell_size_m);
   const auto c = static_cast<float>(std::cos(T_raster_head.yaw_rad)) / cell_m;
   const auto s = static_cast<float>(std::sin(T_raster_head.yaw_rad)) / cell_m;
   const Eigen::Vector2f head(static_cast<float>(T_raster_head.x_m),
                              static_cast<float>(T_raster_head.y_m));
-  // `x, y` of length `length_m`, cut to end a truncation distance before range_m.
-  const auto add = [&](float x, float y, float length_m, float range_m) {
-    const float k = std::max(0.0F, range_m - truncation_m) / length_m;
-    outline_.emplace_back(head.x() + k * (c * x - s * y), head.y() + k * (s * x + c * y));
-  };
-  const std::size_t n = scan.beams.size();
-  const SurfaceConfig surface;
-  const auto enter = [&](const Beam2* before, const Beam2& beam) {
-    const bool neighbours = before != nullptr && before->kind == BeamKind::hit &&
-                            spread_between(*before, beam) <= config_.max_spread_rad;
-    if (!neighbours) {
-      outline_.push_back(head);
-      return;
-    }
-    const float spread = spread_between(*before, beam);
-    if (is_one_surface(*before, beam, spread, surface)) return;
-    // A jump in depth: each beam speaks for its half of the angle between them.
-    const float x = before->x_m / before->range_m + beam.x_m / beam.range_m;
-    const float y = before->y_m / before->range_m + beam.y_m / beam.range_m;
-    const float length_m = std::max(std::hypot(x, y), 1e-6F);
-    add(x, y, length_m, before->range_m);
-    add(x, y, length_m, beam.range_m);
+  const auto add = [&](std::size_t direction_of, float reach_m) {
+    const Eigen::Vector2f p =
+        pieces[direction_of].point * (reach_m / pieces[direction_of].point.norm());
+    outline_.emplace_back(head.x() + c * p.x() - s * p.y(), head.y() + s * p.x() + c * p.y());
   };
   for (std::size_t i = 0; i < n; ++i) {
-    const Beam2& beam = scan.beams[i];
-    if (beam.kind != BeamKind::hit || beam.range_m <= 0.0F) continue;
-    enter(i > 0 ? &scan.beams[i - 1] : scan.full_circle ? &scan.beams[n - 1] : nullptr, beam);
-    add(beam.x_m, beam.y_m, beam.range_m, beam.range_m);
-    const bool ends = i + 1 == n ? !scan.full_circle : scan.beams[i + 1].kind != BeamKind::hit;
-    if (ends) outline_.push_back(head);
+    const std::size_t before = i == 0 ? n - 1 : i - 1;
+    if (pieces[i].link == SurfaceLink::none) outline_.push_back(head);
+    // Between surfaces of different depth, only what lies before both is sure to be free.
+    if (pieces[i].link == SurfaceLink::jump) {
+      const bool rises = reach_m_[before] < reach_m_[i];
+      add(rises ? i : before, std::min(reach_m_[before], reach_m_[i]));
+    }
+    add(i, reach_m_[i]);
   }
 }
 

@@ -18,7 +18,6 @@ namespace lifeline {
 struct RasterConfig {
   float behind_m = 0.15F;        ///< surfaces are drawn this deep, losing weight with the square
   float free_weight = 0.5F;      ///< of a cell that a beam passed far from any surface
-  float max_spread_rad = 0.09F;  ///< beams further apart leave the space between them unknown
 };
 
 /// The signed distances of one scan alone, tsdf_k and w_k of Eq. 2: each cell once, whatever the number
@@ -37,10 +36,9 @@ class ScanRaster {
 
   ScanRaster(GridGeometry geometry, RasterConfig config);
 
-  /// Draws `scan`, whose surfaces are `pieces`, as seen from `T_map_head`, with all weights times
-  /// `weight`. What was drawn before is gone.
-  void draw(const Scan2& scan, std::span<const SurfacePiece> pieces, const Pose2& T_map_head,
-            float weight);
+  /// Draws a scan's surfaces as seen from `T_map_head`, with all weights times `weight`. What was
+  /// drawn before is gone.
+  void draw(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, float weight);
 
   /// The tiles with anything drawn. Cells of weight 0 are not drawn.
   [[nodiscard]] std::span<const std::unique_ptr<Tile>> tiles() const {
@@ -53,9 +51,9 @@ class ScanRaster {
     std::int32_t direction = 0;
   };
   void clear();
-  void draw_piece(const SurfacePiece& piece, const Pose2& T_map_head, float weight);
+  void draw_piece(const SurfacePiece& piece, const Pose2& T_raster_head, float weight);
   void draw_row(const SurfacePiece& piece, std::int32_t row, std::int32_t first, std::int32_t last);
-  void trace_outline(const Scan2& scan, const Pose2& T_map_head);
+  void trace_outline(std::span<const SurfacePiece> pieces, const Pose2& T_raster_head);
   void fill_outline(float weight);
   void fill_row(std::int32_t row, std::int32_t first, std::int32_t last, TsdCell value);
   [[nodiscard]] Tile* tile_at(TileIndex index);
@@ -68,6 +66,7 @@ class ScanRaster {
   std::int32_t columns_ = 0;
   std::int32_t rows_ = 0;
   std::vector<std::int32_t> directory_;   ///< position in tiles_, -1 = none
+  std::vector<float> reach_m_;            ///< of the free space before each piece
   std::vector<Eigen::Vector2f> outline_;  ///< of the free space seen, closed, in cells
   std::vector<std::int32_t> row_start_;   ///< where each row's crossings begin
   std::vector<Crossing> crossings_;

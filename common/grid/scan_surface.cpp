@@ -8,6 +8,12 @@
 namespace lifeline {
 namespace {
 
+float spread_between(const Beam2& a, const Beam2& b) {
+  constexpr float kTurn = 6.2831853F;
+  const float apart_rad = std::abs(a.angle_rad - b.angle_rad);
+  return std::min(apart_rad, std::abs(kTurn - apart_rad));
+}
+
 /// Hits merged to points of one run: neighbours on one surface.
 struct RunPoint {
   Eigen::Vector2d p;
@@ -72,8 +78,12 @@ class RunFitter {
   RunFitter(std::span<const RunPoint> run, double spread_rad, const SurfaceConfig& config)
       : run_(run), spread_rad_(spread_rad), config_(config), sums_(run) {}
 
-  void append_to(std::vector<SurfacePiece>& pieces) {
-    for (std::size_t i = 0; i < run_.size(); ++i) pieces.push_back(piece(i));
+  /// `link` is that of the run's first piece.
+  void append_to(std::vector<SurfacePiece>& pieces, SurfaceLink link) {
+    for (std::size_t i = 0; i < run_.size(); ++i) {
+      pieces.push_back(piece(i));
+      pieces.back().link = i == 0 ? link : SurfaceLink::joined;
+    }
   }
 
  private:
@@ -91,9 +101,11 @@ class RunFitter {
     piece.normal = line.normal.cast<float>();
     set_extent(i, line.normal, range_m, piece);
     const double fit = line.rms_m > config_.line_rms_m ? 0.5 : 1.0;
-    const double near = std::min(1.0, static_cast<double>(config_.full_quality_m) / range_m);
-    piece.quality = static_cast<float>(near * fit *
-                                       (piece.has_normal ? 0.2 + 0.8 * incidence : 0.3));
+    const double sway_m = config_.heading_sigma_rad * range_m;
+    const double across_m2 = sway_m * sway_m * (1.0 - incidence * incidence);
+    const double noise_m2 = config_.range_sigma_m * config_.range_sigma_m;
+    piece.quality = static_cast<float>(fit * (piece.has_normal ? 1.0 : 0.15) * noise_m2 /
+                                       (noise_m2 + across_m2));
     return piece;
   }
 
@@ -149,31 +161,61 @@ class SurfaceExtractor {
     const std::size_t start = scan_.full_circle ? first_break() : 0;
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = (start + k) % n;
-      if (k > 0 && !joined(i)) finish_run();
-      if (scan_.beams[i].kind == BeamKind::hit) add(scan_.beams[i]);
+      if (scan_.beams[i].kind != BeamKind::hit) continue;
+      const SurfaceLink link = link_of(i);
+      if (link != SurfaceLink::joined || k == 0) {
+        finish_run();
+        run_link_ = link;
+      }
+      add(scan_.beams[i]);
     }
     finish_run();
     return std::move(pieces_);
   }
 
  private:
-  [[nodiscard]] std::size_t before(std::size_t i) const {
-    return i == 0 ? scan_.beams.size() - 1 : i - 1;
+  /// The beam `offset` places on; nullptr beyond the ends of the sweep.
+  [[nodiscard]] const Beam2* neighbour(std::size_t i, int offset) const {
+    const auto n = static_cast<std::ptrdiff_t>(scan_.beams.size());
+    const auto at = static_cast<std::ptrdiff_t>(i) + offset;
+    if (at >= 0 && at < n) return &scan_.beams[static_cast<std::size_t>(at)];
+    if (!scan_.full_circle) return nullptr;
+    return &scan_.beams[static_cast<std::size_t>((at + n) % n)];
   }
 
-  [[nodiscard]] float spread_at(std::size_t i) const {
-    return std::abs(std::remainder(scan_.beams[i].angle_rad - scan_.beams[before(i)].angle_rad,
-                                   6.2831853F));
+  /// How beam i, a hit, goes with the beam before it.
+  [[nodiscard]] SurfaceLink link_of(std::size_t i) const {
+    const Beam2& beam = scan_.beams[i];
+    const Beam2* before = neighbour(i, -1);
+    if (before == nullptr || before->kind != BeamKind::hit) return SurfaceLink::none;
+    const float spread_rad = spread_between(*before, beam);
+    if (spread_rad > config_.max_spread_rad) return SurfaceLink::none;
+    const float apart_m = std::hypot(before->x_m - beam.x_m, before->y_m - beam.y_m);
+    // Four times the spacing of a surface seen head-on: seen at less than about 14 deg, it falls
+    // apart.
+    const float spacing_m = spread_rad * std::min(before->range_m, beam.range_m);
+    if (apart_m <= std::min(config_.max_gap_m, 0.08F + 4.0F * spacing_m)) {
+      return SurfaceLink::joined;
+    }
+    if (apart_m > config_.max_gap_in_line_m) return SurfaceLink::jump;
+    return in_line(neighbour(i, -2), *before, beam) || in_line(neighbour(i, 1), beam, *before)
+               ? SurfaceLink::joined
+               : SurfaceLink::jump;
   }
 
-  /// Whether beam i shows the same surface as the beam before it.
-  [[nodiscard]] bool joined(std::size_t i) const {
-    return is_one_surface(scan_.beams[before(i)], scan_.beams[i], spread_at(i), config_);
+  /// Whether `outer`, if it is a hit, lies in line with its neighbour `middle` and the next, `inner`.
+  [[nodiscard]] bool in_line(const Beam2* outer, const Beam2& middle, const Beam2& inner) const {
+    if (outer == nullptr || outer->kind != BeamKind::hit) return false;
+    const Eigen::Vector2f a(middle.x_m - outer->x_m, middle.y_m - outer->y_m);
+    const Eigen::Vector2f b(inner.x_m - middle.x_m, inner.y_m - middle.y_m);
+    const float a_m = a.norm();
+    constexpr float kStraight = 0.985F;  // cosine of 10 deg
+    return a_m <= config_.max_gap_in_line_m && a.dot(b) >= kStraight * a_m * b.norm();
   }
 
   [[nodiscard]] std::size_t first_break() const {
     for (std::size_t i = 0; i < scan_.beams.size(); ++i) {
-      if (!joined(i)) return i;
+      if (scan_.beams[i].kind != BeamKind::hit || link_of(i) != SurfaceLink::joined) return i;
     }
     return 0;
   }
@@ -203,34 +245,27 @@ class SurfaceExtractor {
   void finish_run() {
     finish_point();
     if (run_.empty()) return;
-    RunFitter(run_, typical_spread(), config_).append_to(pieces_);
+    RunFitter(run_, typical_spread(), config_).append_to(pieces_, run_link_);
     run_.clear();
   }
 
   [[nodiscard]] double typical_spread() const {
-    return scan_.beams.size() < 2 ? 0.0 : static_cast<double>(spread_at(1));
+    return scan_.beams.size() < 2
+               ? 0.0
+               : static_cast<double>(spread_between(scan_.beams[0], scan_.beams[1]));
   }
 
   const Scan2& scan_;
   const SurfaceConfig& config_;
   std::vector<SurfacePiece> pieces_;
   std::vector<RunPoint> run_;
+  SurfaceLink run_link_ = SurfaceLink::none;
   Eigen::Vector2d merge_start_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d merge_sum_ = Eigen::Vector2d::Zero();
   int merged_ = 0;
 };
 
 }  // namespace
-
-bool is_one_surface(const Beam2& a, const Beam2& b, float spread_rad,
-                    const SurfaceConfig& config) {
-  if (a.kind != BeamKind::hit || b.kind != BeamKind::hit) return false;
-  const float apart_m = std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-  // Four times the spacing of a surface seen head-on: seen at less than about 14 deg, it falls
-  // apart.
-  const float spacing_m = spread_rad * std::min(a.range_m, b.range_m);
-  return apart_m <= std::min(config.max_gap_m, 0.08F + 4.0F * spacing_m);
-}
 
 std::vector<SurfacePiece> extract_surface(const Scan2& scan, const SurfaceConfig& config) {
   if (scan.beams.empty()) return {};

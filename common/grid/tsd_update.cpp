@@ -14,13 +14,13 @@ TsdUpdater::TsdUpdater(GridGeometry geometry, PushConfig config)
   LIFELINE_CHECK(config.weight_cap >= 1.0 && config.weight_cap <= 256.0);
 }
 
-std::span<const TileIndex> TsdUpdater::push(const Scan2& scan, std::span<const SurfacePiece> pieces,
+std::span<const TileIndex> TsdUpdater::push(std::span<const SurfacePiece> pieces,
                                             const Pose2& T_map_head, double weight,
                                             TsdGrid& grid) {
   LIFELINE_CHECK(grid.geometry() == geometry_);
   LIFELINE_CHECK(T_map_head.is_finite() && weight > 0.0 && weight <= 1.0);
   changed_.clear();
-  raster_.draw(scan, pieces, T_map_head, static_cast<float>(weight));
+  raster_.draw(pieces, T_map_head, static_cast<float>(weight));
   for (const auto& seen : raster_.tiles()) {
     if (merge(*seen, grid.at(seen->index))) changed_.push_back(seen->index);
   }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/grid/pose2.hpp"
-#include "common/grid/scan2.hpp"
 #include "common/grid/scan_raster.hpp"
 #include "common/grid/scan_surface.hpp"
 #include "common/grid/tsd_grid.hpp"
@@ -51,11 +50,11 @@ class TsdUpdater {
  public:
   TsdUpdater(GridGeometry geometry, PushConfig config);
 
-  /// Updates `grid` (of the geometry given at construction) with a scan taken at `T_map_head`, whose
-  /// surfaces are `pieces`. `weight` in (0, 1] scales every w_k: how much this scan is trusted.
+  /// Updates `grid` (of the geometry given at construction) with a scan taken at `T_map_head`,
+  /// whose surfaces are `pieces`. `weight` in (0, 1] scales every w_k: how much this scan is trusted.
   /// Cells beyond the largest tile index are left out. Returns the tiles in which any cell changed,
   /// ordered by x, then y; valid until the next push.
-  std::span<const TileIndex> push(const Scan2& scan, std::span<const SurfacePiece> pieces,
+  std::span<const TileIndex> push(std::span<const SurfacePiece> pieces,
                                   const Pose2& T_map_head, double weight, TsdGrid& grid);
 
  private:
