@@ -16,7 +16,6 @@ constexpr double kPassedByM = 0.6;  ///< from here a place counts as visited
 constexpr double kSharedM = 1.5;    ///< from a way between two starts
 constexpr double kRoomyM = 0.6;     ///< from the walls: where starts and places are preferred
 constexpr double kMostDetour = 1.4;
-constexpr double kShareReluctance = 1.5;  ///< places nearer to another's start come later
 
 /// Calls visit(cell) for every walkable cell within `radius_m` of `centre`.
 template <typename Visit>
@@ -85,7 +84,7 @@ void Tour::choose_places(Draw& draw) {
     for (const std::size_t place : *cells) {
       if (seen[place]) continue;
       place_at_[place] = static_cast<std::int32_t>(places_.size());
-      places_.push_back({place, true, false, 1.0, 1.0});
+      places_.push_back({place, true, false, 1.0});
       const CellIndex from = space_.cell(place);
       around(space_, from, kSightM, [&](CellIndex cell) {
         const std::size_t i = space_.index(cell);
@@ -100,9 +99,7 @@ void Tour::choose_own(const WalkerNumber& number) {
   const std::vector<bool> shared = near_ways_between_starts();
   routes_.spread(starts_, [](std::size_t, double) { return true; });
   for (Place& place : places_) {
-    const bool nearest = routes_.start_of(place.cell) == here_;
-    place.own = nearest || shared[place.cell];
-    if (!nearest) place.reluctance = kShareReluctance;
+    place.own = routes_.start_of(place.cell) == here_ || shared[place.cell];
   }
 }
 
@@ -129,7 +126,7 @@ std::vector<std::vector<std::size_t>> Tour::next_round() {
       std::any_of(places_.begin(), places_.end(), [](const Place& place) { return !place.own; });
   for (Place& place : places_) {
     place.pending = round_ == 0 ? place.own : round_ > 1 || !others_left || !place.own;
-    place.detour = place.reluctance * draw_.between(1.0, kMostDetour);
+    place.detour = draw_.between(1.0, kMostDetour);
   }
   ++round_;
   std::vector<std::vector<std::size_t>> ways;

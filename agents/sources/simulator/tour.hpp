@@ -41,8 +41,7 @@ class Tour {
     std::size_t cell;
     bool own;
     bool pending;
-    double reluctance;  // how many times its way counts
-    double detour;      // the same, with the luck of the round
+    double detour;  // how many times its way counts, drawn anew in every round
   };
 
   void choose_starts(const WalkerNumber& number);
