@@ -48,8 +48,9 @@ Result<void> write_helmet_report(const std::filesystem::path& folder, const Laye
     if (auto written = files::write_tum(folder / (id + ".truth.tum"), mapper.truth()); !written)
       return written;
   }
-  const files::SavedMap map{layer, mapper.layer(), mapper.trajectory()};
-  if (auto written = files::save_map(folder / (id + ".lifemap"), map); !written) return written;
+  const auto saved =
+      files::save_map(folder / (id + ".lifemap"), layer, mapper.layer(), mapper.trajectory());
+  if (!saved) return saved;
   return files::write_file_atomically(folder / (id + ".json"),
                                       to_json(layer, mapper, scans_dropped, helmet));
 }

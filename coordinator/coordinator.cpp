@@ -55,8 +55,8 @@ void Coordinator::step() {
   hear_tiles();
   for (const auto& changed : store_.take_changed()) {
     common_map_.mark(changed);
-    auto& progress = progress_[changed.layer];
-    progress.layer = changed.layer;
+    auto& progress =
+        progress_.try_emplace(changed.layer, merging::LayerProgress{changed.layer}).first->second;
     ++progress.changes;
   }
   count_known_cells(now);
