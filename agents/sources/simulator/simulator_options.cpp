@@ -53,6 +53,7 @@ Result<SimulatorOptions> read_simulator_options(const SourceSpec& spec) {
                 OfficeOptions::kLargestSideM);
   reader.number("depth", options.office.depth_m, OfficeOptions::kLeastSideM,
                 OfficeOptions::kLargestSideM);
+  options.walker.seed = options.office.seed;
   reader.integer("walk_seed", options.walker.seed, 0, kMostSeed);
   reader.integer("walkers", options.walker.walkers, 1, WalkerNumber::kMost);
   const int last = options.walker.walkers == 1 ? WalkerNumber::kMost : options.walker.walkers;

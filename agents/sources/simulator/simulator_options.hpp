@@ -13,7 +13,7 @@ namespace lifeline::sources {
 /// What the options of `sim:TARGET?options` say.
 struct SimulatorOptions {
   OfficeOptions office;              ///< seed, width, depth
-  WalkerNumber walker;               ///< walk_seed, walker, walkers
+  WalkerNumber walker;               ///< walk_seed (seed where it is not given), walker, walkers
   LidarOptions lidar;                ///< beams, hz, noise, dropout, sweep
   bool ahrs = true;                  ///< prior=ahrs|none
   std::optional<double> duration_s;  ///< duration; without it, the walk's first round

@@ -77,6 +77,12 @@ TEST(SimulatedSource, EverySeedMatters) {
   }
 }
 
+TEST(SimulatedSource, TheWalksSeedIsTheBuildingsWhereItIsNotGiven) {
+  const std::string source = "sim:office?duration=2&beams=100&seed=5";
+  EXPECT_TRUE(same_scans(support::scans_of(source), support::scans_of(source + "&walk_seed=5")));
+  EXPECT_FALSE(same_scans(support::scans_of(source), support::scans_of(source + "&walk_seed=1")));
+}
+
 TEST(SimulatedSource, WalkersOfOneBuildingSeeTheSameWalls) {
   const auto spec = parse_source_spec("sim:office?seed=4").value();
   const FloorPlan plan = load_plan(spec).value();
