@@ -113,16 +113,18 @@ TEST(ChildProcess, is_gone_with_what_it_started_when_its_object_goes) {
 }
 
 TEST(ChildProcess, dies_with_us_when_we_are_killed) {
+  const ChildCommand sleeper{{"/bin/sh", "-c", "echo $$; exec sleep 60"}, log_path()};
   const pid_t parent = fork();
   if (parent == 0) {
-    auto child = shell("echo $$; exec sleep 60");
-    for (;;) pause();
+    auto child = ChildProcess::start(sleeper);
+    sleep(60);
+    _exit(0);
   }
   const pid_t child = pid_in_log();
-  ASSERT_GT(child, 0);
-  EXPECT_TRUE(is_alive(child));
+  const bool lived = child > 0 && is_alive(child);
   kill(parent, SIGKILL);
   waitpid(parent, nullptr, 0);
+  ASSERT_TRUE(lived);
   EXPECT_TRUE(dies(child));
 }
 
