@@ -8,37 +8,17 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/check.hpp"
 #include "common/base/log.hpp"
 #include "common/dds/bounds.hpp"
 #include "common/dds/convert.hpp"
-#include "common/dds/guarded_type.hpp"
 #include "common/dds/participant_core.hpp"
 #include "common/dds/topics.hpp"
-#include "dds/mapPubSubTypes.h"
-#include "dds/mergePubSubTypes.h"
-#include "dds/statusPubSubTypes.h"
+#include "common/dds/type_support.hpp"
 
 namespace lifeline::dds {
 namespace {
 
-template <typename Message>
-struct TypeOf;
-// clang-format off
-template <> struct TypeOf<wire::HelmetPose> { using Generated = msg::HelmetPosePubSubType; };
-template <> struct TypeOf<wire::HelmetScan> { using Generated = msg::HelmetScanPubSubType; };
-template <> struct TypeOf<wire::TsdTile> { using Generated = msg::TsdTilePubSubType; };
-template <> struct TypeOf<wire::TileRequest> { using Generated = msg::TileRequestPubSubType; };
-template <> struct TypeOf<wire::MergeDirective> { using Generated = msg::MergeDirectivePubSubType; };
-template <> struct TypeOf<wire::MergeEvidence> { using Generated = msg::MergeEvidencePubSubType; };
-template <> struct TypeOf<wire::AgentStatus> { using Generated = msg::AgentStatusPubSubType; };
-template <> struct TypeOf<wire::Detection> { using Generated = msg::DetectionPubSubType; };
-template <> struct TypeOf<wire::Alert> { using Generated = msg::AlertPubSubType; };
-// clang-format on
-
-template <typename Message>
-using TypeSupportOf = GuardedType<typename TypeOf<Message>::Generated>;
-template <typename Message>
-using SampleOf = typename TypeSupportOf<Message>::Data;
 using CorePointer = std::shared_ptr<ParticipantCore>;
 
 /// A peer whose QoS does not fit is silent otherwise.
@@ -189,7 +169,9 @@ class DdsInbox final : public wire::Inbox<Message> {
 
 template <typename Message>
 Result<fast::Topic*> topic_for(const CorePointer& core) {
-  return core->topic(topic_of<Message>().name, fast::TypeSupport(new TypeSupportOf<Message>()));
+  const fast::TypeSupport type(new TypeSupportOf<Message>());
+  LIFELINE_CHECK(type.get_type_name() == topic_of<Message>().type);
+  return core->topic(topic_of<Message>().name, type);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // What several messages have in common; for convert_*.cpp only.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -69,12 +70,16 @@ IdlEnum to_idl_enum(WireEnum value) {
   return static_cast<IdlEnum>(static_cast<std::underlying_type_t<WireEnum>>(value));
 }
 
-inline void to_idl(const std::vector<std::string>& in, std::vector<msg::Name>& out) {
-  out.assign(in.begin(), in.end());
+inline void to_idl(const std::vector<std::string>& in, std::vector<msg::AgentName>& out) {
+  out.resize(in.size());
+  for (std::size_t i = 0; i < in.size(); ++i) out[i].id(to_name(in[i]));
 }
 
-inline std::vector<std::string> from_idl(const std::vector<msg::Name>& in) {
-  return {in.begin(), in.end()};
+inline std::vector<std::string> from_idl(const std::vector<msg::AgentName>& in) {
+  std::vector<std::string> out;
+  out.reserve(in.size());
+  for (const auto& name : in) out.push_back(name.id().to_string());
+  return out;
 }
 
 }  // namespace lifeline::dds::parts

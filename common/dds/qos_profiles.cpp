@@ -1,5 +1,7 @@
 #include "common/dds/qos_profiles.hpp"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,23 +15,55 @@
 namespace lifeline::dds {
 namespace {
 
-/// Appends the lines of all elements called `name` below `node`.
-void find_lines(const tinyxml2::XMLElement* element, std::string_view name,
-                std::vector<int>& lines) {
+/// What stands in a `kind` element of some policy.
+constexpr std::array<std::string_view, 18> kKinds{"KEEP_LAST",
+                                                  "KEEP_ALL",
+                                                  "VOLATILE",
+                                                  "TRANSIENT_LOCAL",
+                                                  "TRANSIENT",
+                                                  "PERSISTENT",
+                                                  "BEST_EFFORT",
+                                                  "RELIABLE",
+                                                  "AUTOMATIC",
+                                                  "MANUAL_BY_TOPIC",
+                                                  "MANUAL_BY_PARTICIPANT",
+                                                  "SHARED",
+                                                  "EXCLUSIVE",
+                                                  "SYNCHRONOUS",
+                                                  "ASYNCHRONOUS",
+                                                  "ON",
+                                                  "OFF",
+                                                  "AUTO"};
+
+/// Calls `visit` on `element`, its siblings and all below them.
+template <typename Visit>
+void for_each_element(const tinyxml2::XMLElement* element, Visit& visit) {
   for (; element != nullptr; element = element->NextSiblingElement()) {
-    if (element->Name() == name) lines.push_back(element->GetLineNum());
-    find_lines(element->FirstChildElement(), name, lines);
+    visit(*element);
+    for_each_element(element->FirstChildElement(), visit);
   }
 }
 
-/// Fast DDS names a wrong element ("... Name: foo") but not its line.
+/// The element that Fast DDS complains about: "... Name: foo", "<foo> ...", or "Node 'kind' ...".
+bool is_meant(const tinyxml2::XMLElement& element, std::string_view complaint) {
+  const std::string_view name = element.Name();
+  if (complaint.starts_with("Node 'kind'")) {
+    const auto* text = element.GetText();
+    return name == "kind" &&
+           (text == nullptr || std::find(kKinds.begin(), kKinds.end(), text) == kKinds.end());
+  }
+  return complaint.ends_with(fmt::format("Name: {}", name)) ||
+         complaint.starts_with(fmt::format("<{}>", name));
+}
+
+/// Fast DDS gives no line: it is known where only one element can be meant.
 std::optional<int> line_of_complaint(const tinyxml2::XMLDocument& document,
                                      std::string_view complaint) {
-  constexpr std::string_view kMarker = "Name: ";
-  const auto at = complaint.find(kMarker);
-  if (at == std::string_view::npos) return std::nullopt;
   std::vector<int> lines;
-  find_lines(document.RootElement(), complaint.substr(at + kMarker.size()), lines);
+  auto visit = [&](const tinyxml2::XMLElement& element) {
+    if (is_meant(element, complaint)) lines.push_back(element.GetLineNum());
+  };
+  for_each_element(document.RootElement(), visit);
   return lines.size() == 1 ? std::optional(lines.front()) : std::nullopt;
 }
 

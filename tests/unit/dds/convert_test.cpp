@@ -1,0 +1,60 @@
+#include "common/dds/convert.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/dds/type_support.hpp"
+#include "tests/unit/dds/message_fields.hpp"
+
+namespace lifeline::dds {
+namespace {
+
+template <typename Message>
+class Convert : public ::testing::Test {};
+
+using Messages = ::testing::Types<wire::HelmetPose, wire::HelmetScan, wire::TsdTile,
+                                  wire::TileRequest, wire::MergeDirective, wire::MergeEvidence,
+                                  wire::AgentStatus, wire::Detection, wire::Alert>;
+TYPED_TEST_SUITE(Convert, Messages);
+
+TYPED_TEST(Convert, every_field_comes_back) {
+  const auto message = testing::filled<TypeParam>();
+  ASSERT_TRUE(testing::all_differ(message, TypeParam()));
+  typename TypeSupportOf<TypeParam>::Idl sample;
+
+  ASSERT_TRUE(to_idl(message, sample));
+
+  EXPECT_TRUE(testing::same(from_idl(sample), message));
+}
+
+TYPED_TEST(Convert, a_reused_sample_keeps_nothing_of_the_last_message) {
+  typename TypeSupportOf<TypeParam>::Idl sample;
+  ASSERT_TRUE(to_idl(testing::filled<TypeParam>(), sample));
+
+  ASSERT_TRUE(to_idl(TypeParam(), sample));
+
+  EXPECT_TRUE(testing::same(from_idl(sample), TypeParam()));
+}
+
+TYPED_TEST(Convert, every_field_survives_the_wire) {
+  TypeSupportOf<TypeParam> type;
+  const auto message = testing::filled<TypeParam>();
+  SampleOf<TypeParam> sent, received;
+  ASSERT_TRUE(to_idl(message, sent.value));
+  rtps::SerializedPayload_t payload(type.m_typeSize);
+
+  ASSERT_TRUE(type.serialize(&sent, &payload));
+  ASSERT_TRUE(type.deserialize(&payload, &received));
+
+  EXPECT_TRUE(received.decodable);
+  EXPECT_TRUE(testing::same(from_idl(received.value), message));
+}
+
+TEST(ConvertEnum, a_wide_unknown_value_does_not_become_a_known_one) {
+  msg::AgentStatus sample;
+  sample.role(static_cast<msg::Role>(0x10000));
+
+  EXPECT_EQ(static_cast<int>(from_idl(sample).role), 255);
+}
+
+}  // namespace
+}  // namespace lifeline::dds

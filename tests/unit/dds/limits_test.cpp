@@ -1,0 +1,63 @@
+#include "common/wire/limits.hpp"
+
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace lifeline::wire {
+namespace {
+
+/// Every bounded sequence and text of one IDL file: field -> bound.
+std::multimap<std::string, std::size_t> bounds_in(const std::string& name) {
+  std::ifstream file(LIFELINE_SOURCE_DIR "/idl/" + name);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string idl = text.str();
+  static const std::regex kBounded(
+      R"((?:sequence<\s*\w+\s*,\s*(\d+)\s*>|string<(\d+)>)\s+(\w+)\s*;)");
+  std::multimap<std::string, std::size_t> bounds;
+  for (std::sregex_iterator it(idl.begin(), idl.end(), kBounded), end; it != end; ++it) {
+    const auto& match = *it;
+    bounds.emplace(match[3], std::stoul(match[1].matched ? match[1] : match[2]));
+  }
+  return bounds;
+}
+
+using Bounds = std::multimap<std::string, std::size_t>;
+
+TEST(Limits, are_the_bounds_of_the_idl) {
+  ASSERT_EQ(kMaxMissionIdLength, kMaxIdLength);  // one type, Name, serves both
+  EXPECT_EQ(bounds_in("envelope.idl"),
+            (Bounds{{"Name", kMaxIdLength}, {"signature", kMaxSignature}}));
+  EXPECT_EQ(bounds_in("map.idl"), (Bounds{{"ranges_cm", kMaxScanBeams},
+                                          {"payload", kMaxTilePayload},
+                                          {"tiles", kMaxTilesPerRequest}}));
+  EXPECT_EQ(
+      bounds_in("merge.idl"),
+      (Bounds{{"members", kMaxMembers}, {"reason", kMaxReason}, {"candidates", kMaxCandidates}}));
+  EXPECT_EQ(bounds_in("status.idl"), (Bounds{{"layers", kMaxLayers},
+                                             {"peers_heard", kMaxPeers},
+                                             {"text", kMaxAlertText},
+                                             {"acknowledged_by", kMaxPeers}}));
+}
+
+TEST(Limits, nothing_in_the_idl_is_unbounded) {
+  // A sequence of texts is as bad: the generated code allocates what the sender claims.
+  static const std::regex kUnbounded(
+      R"(sequence<\s*\w+\s*>|\bstring\s+\w+\s*;|sequence<\s*(?:Name|string))");
+  for (const auto* name : {"envelope.idl", "map.idl", "merge.idl", "status.idl"}) {
+    std::ifstream file(std::string(LIFELINE_SOURCE_DIR "/idl/") + name);
+    ASSERT_TRUE(file) << name;
+    for (std::string line; std::getline(file, line);) {
+      line = line.substr(0, line.find("//"));
+      EXPECT_FALSE(std::regex_search(line, kUnbounded)) << name << ": " << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lifeline::wire

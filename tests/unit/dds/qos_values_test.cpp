@@ -1,0 +1,151 @@
+// What the shipped profiles must keep whatever else is tuned: docs/topics.md says why.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include "common/dds/topics.hpp"
+
+namespace lifeline::dds {
+namespace {
+
+/// Every leaf element below `element`: path -> text.
+void flatten(const tinyxml2::XMLElement* element, const std::string& path,
+             std::multimap<std::string, std::string>& leaves) {
+  for (; element != nullptr; element = element->NextSiblingElement()) {
+    const std::string here = path + "/" + element->Name();
+    if (const auto* text = element->GetText(); text != nullptr) leaves.emplace(here, text);
+    flatten(element->FirstChildElement(), here, leaves);
+  }
+}
+
+using Leaves = std::multimap<std::string, std::string>;
+
+class ShippedQos : public ::testing::TestWithParam<const char*> {
+ protected:
+  ShippedQos() {
+    const std::string file = LIFELINE_SOURCE_DIR "/config/qos/" + std::string(GetParam());
+    EXPECT_EQ(document_.LoadFile(file.c_str()), tinyxml2::XML_SUCCESS);
+    profiles_ = document_.FirstChildElement("dds")->FirstChildElement("profiles");
+  }
+
+  /// The leaves of one profile.
+  [[nodiscard]] Leaves profile(std::string_view name) const {
+    Leaves leaves;
+    for (auto* p = profiles_->FirstChildElement(); p != nullptr; p = p->NextSiblingElement()) {
+      const auto* called = p->Attribute("profile_name");
+      if (called != nullptr && called == name) flatten(p->FirstChildElement(), "", leaves);
+    }
+    return leaves;
+  }
+
+  [[nodiscard]] std::vector<std::string> all(const std::string& path, const Leaves& leaves) const {
+    std::vector<std::string> values;
+    const auto [begin, end] = leaves.equal_range(path);
+    for (auto it = begin; it != end; ++it) values.push_back(it->second);
+    return values;
+  }
+
+  tinyxml2::XMLDocument document_;
+  const tinyxml2::XMLElement* profiles_ = nullptr;
+};
+
+using Values = std::vector<std::string>;
+
+TEST_P(ShippedQos, history_keeps_the_newest_of_unlimited_keys) {
+  const auto check = [&](std::string_view name, const char* policy) {
+    const auto leaves = profile(name);
+    EXPECT_EQ(all("/topic/historyQos/kind", leaves), Values{"KEEP_LAST"}) << name;
+    EXPECT_EQ(all("/topic/historyQos/depth", leaves), Values{"1"}) << name;
+    for (const auto* limit : {"max_samples", "max_instances", "max_samples_per_instance"}) {
+      EXPECT_EQ(all(std::string("/topic/resourceLimitsQos/") + limit, leaves), Values{"0"})
+          << name << " " << limit;
+    }
+    EXPECT_EQ(all("/historyMemoryPolicy", leaves), Values{policy}) << name;
+    EXPECT_EQ(all("/qos/data_sharing/kind", leaves), Values{"OFF"}) << name;
+  };
+  const auto check_topic = [&](const auto& topic) {
+    check(topic.writer_profile, "DYNAMIC_REUSABLE");
+    check(topic.reader_profile, "PREALLOCATED");
+    if (!topic.standby_profile.empty()) check(topic.standby_profile, "DYNAMIC_REUSABLE");
+  };
+  std::apply([&](const auto&... topics) { (check_topic(topics), ...); }, kTopics);
+}
+
+TEST_P(ShippedQos, writers_offer_what_readers_ask_for) {
+  const auto check_topic = [&](const auto& topic) {
+    const auto reader = profile(topic.reader_profile);
+    for (const auto name : {topic.writer_profile, topic.standby_profile}) {
+      if (name.empty()) continue;
+      const auto writer = profile(name);
+      for (const auto* path :
+           {"/qos/reliability/kind", "/qos/durability/kind", "/qos/deadline/period/nanosec",
+            "/qos/liveliness/kind", "/qos/liveliness/lease_duration/sec", "/qos/ownership/kind"}) {
+        EXPECT_EQ(all(path, writer), all(path, reader)) << name << " " << path;
+      }
+    }
+  };
+  std::apply([&](const auto&... topics) { (check_topic(topics), ...); }, kTopics);
+}
+
+TEST_P(ShippedQos, reliable_writers_repair_within_a_tenth_of_a_second) {
+  const auto check_topic = [&](const auto& topic) {
+    const auto writer = profile(topic.writer_profile);
+    if (all("/qos/reliability/kind", writer) != Values{"RELIABLE"}) return;
+    const auto period = all("/times/heartbeatPeriod/nanosec", writer);
+    ASSERT_EQ(period.size(), 1U) << topic.writer_profile;
+    EXPECT_GE(std::stoul(period[0]), 20'000'000U) << topic.writer_profile;
+    EXPECT_LE(std::stoul(period[0]), 100'000'000U) << topic.writer_profile;
+    EXPECT_TRUE(all("/times/heartbeatPeriod/sec", writer).empty()) << topic.writer_profile;
+  };
+  std::apply([&](const auto&... topics) { (check_topic(topics), ...); }, kTopics);
+}
+
+TEST_P(ShippedQos, liveliness_is_never_automatic) {
+  for (auto* p = profiles_->FirstChildElement(); p != nullptr; p = p->NextSiblingElement()) {
+    Leaves leaves;
+    flatten(p->FirstChildElement(), "", leaves);
+    for (const auto& kind : all("/qos/liveliness/kind", leaves)) EXPECT_EQ(kind, "MANUAL_BY_TOPIC");
+  }
+}
+
+TEST_P(ShippedQos, the_standby_is_weaker_than_the_primary) {
+  const auto& topic = topic_of<wire::MergeDirective>();
+  const auto strength = [&](std::string_view name) {
+    return std::stoi(all("/qos/ownershipStrength/value", profile(name)).at(0));
+  };
+  EXPECT_LT(strength(topic.standby_profile), strength(topic.writer_profile));
+}
+
+TEST_P(ShippedQos, everything_goes_by_small_udp_messages) {
+  Leaves transports;
+  flatten(profiles_->FirstChildElement("transport_descriptors"), "", transports);
+  const std::string root = "/transport_descriptors/transport_descriptor/";
+  EXPECT_EQ(all(root + "type", transports), Values{"UDPv4"});
+  EXPECT_EQ(all(root + "maxMessageSize", transports), Values{"1400"});
+  EXPECT_EQ(all("/rtps/useBuiltinTransports", profile(kParticipantProfile)), Values{"false"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, ShippedQos, ::testing::Values("loopback.xml", "wifi.xml"));
+
+class LoopbackQos : public ShippedQos {};
+
+TEST_P(LoopbackQos, names_no_address_but_loopback) {
+  Leaves leaves;
+  flatten(profiles_->FirstChildElement(), "", leaves);
+  std::size_t addresses = 0;
+  for (const auto& [path, text] : leaves) {
+    if (!path.ends_with("/address")) continue;
+    ++addresses;
+    EXPECT_EQ(text, "127.0.0.1") << path;
+  }
+  EXPECT_EQ(addresses, 4U);  // white list, data, metatraffic, peers
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, LoopbackQos, ::testing::Values("loopback.xml"));
+
+}  // namespace
+}  // namespace lifeline::dds
