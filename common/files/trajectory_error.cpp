@@ -73,6 +73,7 @@ Eigen::Vector3d refine(const std::vector<Pair>& pairs, const Pose2& T_truth_esti
 TrajectoryError judge(const std::vector<Pair>& pairs, const Pose2& T_truth_estimate) {
   TrajectoryError error;
   error.poses = pairs.size();
+  error.T_truth_estimate = T_truth_estimate;
   for (const auto& [estimate, truth] : pairs) {
     const Pose2 off = truth.inverse() * (T_truth_estimate * estimate);
     const double distance = off.translation().norm(), turn = std::abs(off.yaw_rad);

@@ -5,14 +5,16 @@
 
 #include "common/base/result.hpp"
 #include "common/base/time.hpp"
+#include "common/grid/pose2.hpp"
 #include "common/grid/stamped_pose.hpp"
 
 namespace lifeline::files {
 
 /// How far an estimated trajectory is from the truth.
 struct TrajectoryError {
-  std::size_t poses = 0;  ///< of the estimate that were compared
-  std::size_t lost = 0;   ///< of the estimate for whose time no truth is known
+  std::size_t poses = 0;   ///< of the estimate that were compared
+  std::size_t lost = 0;    ///< of the estimate for whose time no truth is known
+  Pose2 T_truth_estimate;  ///< the alignment: takes the estimate's coordinates to the truth's
   double rmse_m = 0.0;
   double max_m = 0.0;
   double rmse_rad = 0.0;

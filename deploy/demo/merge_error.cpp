@@ -6,10 +6,6 @@
 
 namespace lifeline::demo {
 
-Pose2 true_map_pose(const Pose2& T_world_head, const Pose2& T_map_head) {
-  return T_world_head * T_map_head.inverse();
-}
-
 MergeError merge_error(const Pose2& T_a_b, const Pose2& T_a_b_true,
                        const Eigen::Vector2d& centre_b) {
   const double angle_rad = normalise_angle(T_a_b.yaw_rad - T_a_b_true.yaw_rad);

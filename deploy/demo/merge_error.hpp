@@ -10,10 +10,6 @@
 
 namespace lifeline::demo {
 
-/// Where a helmet's map frame truly lies in the world: its head was at `T_world_head` (truth) when
-/// it took itself to be at `T_map_head`.
-[[nodiscard]] Pose2 true_map_pose(const Pose2& T_world_head, const Pose2& T_map_head);
-
 struct MergeError {
   double at_centre_m = 0.0;  ///< how far the centre of the overlap is put from where it belongs
   double at_origin_m = 0.0;  ///< the same for the origin of map b

@@ -1,5 +1,6 @@
 #include "deploy/demo/judge_trajectory.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <vector>
@@ -62,12 +63,20 @@ TEST_F(JudgeTrajectory, sees_where_it_went_wrong) {
   EXPECT_GT(*verdict.rmse_m, 0.1);
 }
 
-TEST_F(JudgeTrajectory, takes_the_map_s_place_from_the_first_pose_with_a_truth) {
+TEST_F(JudgeTrajectory, does_without_a_truth_for_every_pose) {
   std::vector<StampedPose> truth = seen_from({1.0, 2.0, 0.0}, walk());
   truth.erase(truth.begin(), truth.begin() + 3);
   const TrajectoryVerdict verdict = judge(walk(), truth);
   ASSERT_TRUE(verdict.T_world_map);
   EXPECT_NEAR(verdict.T_world_map->x_m, 1.0, 1e-5);
+}
+
+TEST_F(JudgeTrajectory, does_not_hang_the_map_s_place_on_one_bad_pose) {
+  std::vector<StampedPose> truth = walk();
+  truth.front().pose.yaw_rad += 0.2;
+  const TrajectoryVerdict verdict = judge(walk(), truth);
+  ASSERT_TRUE(verdict.T_world_map);
+  EXPECT_LT(std::abs(verdict.T_world_map->yaw_rad), 0.01);
 }
 
 TEST_F(JudgeTrajectory, bears_a_truth_whose_times_go_back) {

@@ -9,21 +9,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-TEST(TrueMapPose, is_where_the_head_was_when_the_map_began_at_the_head) {
-  const Pose2 T_world_map = true_map_pose({3.0, -2.0, 0.5}, {});
-  EXPECT_DOUBLE_EQ(T_world_map.x_m, 3.0);
-  EXPECT_DOUBLE_EQ(T_world_map.y_m, -2.0);
-  EXPECT_DOUBLE_EQ(T_world_map.yaw_rad, 0.5);
-}
-
-TEST(TrueMapPose, takes_a_map_that_did_not_begin_at_the_head_into_account) {
-  // The head stands 2 m ahead of the map's origin, looking left of it.
-  const Pose2 T_world_map = true_map_pose({5.0, 1.0, 90.0 * kDegree}, {2.0, 0.0, 90.0 * kDegree});
-  EXPECT_NEAR(T_world_map.x_m, 3.0, 1e-12);
-  EXPECT_NEAR(T_world_map.y_m, 1.0, 1e-12);
-  EXPECT_NEAR(T_world_map.yaw_rad, 0.0, 1e-12);
-}
-
 TEST(MergeError, is_nothing_for_the_truth_itself) {
   const Pose2 T_a_b{1.0, 2.0, 3.0};
   const MergeError error = merge_error(T_a_b, T_a_b, {4.0, 5.0});
