@@ -21,8 +21,8 @@ constexpr std::size_t kMostLogBytes = 64 * 1024 * 1024;
 
 /// What a demo may leave: its own files, and those of every helmet that it can have.
 std::vector<std::string> demo_files() {
-  std::vector<std::string> files{"summary.json", "coordinator.json", "coordinator.log",
-                                 "common_map.png"};
+  std::vector<std::string> files{"summary.json",   "coordinator.json", "coordinator.log",
+                                 "common_map.png", "common_map.pgm",   "common_map.yaml"};
   constexpr std::array kEndings{".json", ".tum", ".truth.tum", ".lifemap", ".png", ".log"};
   for (std::size_t i = 0; i < kMostHelmets; ++i) {
     for (const char* ending : kEndings) files.push_back(helmet_name(i) + ending);

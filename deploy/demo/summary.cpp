@@ -108,13 +108,19 @@ std::string render_helmet(const json& helmet) {
       text(helmet["common_map_sha256"], "none"));
 }
 
-std::string render_merge(const json& merge) {
-  const bool accepted = merge["accepted"] == true;
-  return fmt::format("{:<22} {:<9} {:>8} {:>9} {:>7} {:>7} {:>7}\n",
-                     text(merge["a"], "?") + " - " + text(merge["b"], "?"),
-                     accepted ? "accepted" : "refused", shown(merge["error_m"], "{:.3f}"),
-                     shown(merge["error_deg"], "{:.2f}"), shown(merge["s_overlapping"], "{:.3f}"),
-                     shown(merge["acceptance_index"], "{:.3f}"), shown(merge["at_s"], "{:.1f}"));
+/// The merges of one pair in one line: the newest one's figures, and the largest error of all.
+std::string render_pair(const std::string& pair, const std::vector<json>& merges) {
+  const json& newest = merges.back();
+  double worst_m = 0.0;
+  for (const json& merge : merges) {
+    worst_m = std::max(worst_m, number(merge["error_m"]).value_or(0.0));
+  }
+  return fmt::format("{:<22} {:<9} {:>7} {:>8} {:>9.3f} {:>9} {:>7} {:>7} {:>7}\n", pair,
+                     newest["accepted"] == true ? "accepted" : "refused", merges.size(),
+                     shown(newest["error_m"], "{:.3f}"), worst_m,
+                     shown(newest["error_deg"], "{:.2f}"), shown(newest["s_overlapping"], "{:.3f}"),
+                     shown(newest["acceptance_index"], "{:.3f}"),
+                     shown(merges.front()["at_s"], "{:.1f}"));
 }
 
 }  // namespace
@@ -155,9 +161,13 @@ std::string render_summary(const json& summary) {
   for (const json& helmet : summary["helmets"]) table += render_helmet(helmet);
   table += fmt::format("{:<64}  {:.12}\n\n", "coordinator",
                        text(summary["coordinator"]["common_map_sha256"], "none"));
-  table += fmt::format("{:<22} {:<9} {:>8} {:>9} {:>7} {:>7} {:>7}\n", "merge", "", "error m",
-                       "error deg", "S", "ai", "at s");
-  for (const json& merge : summary["merges"]) table += render_merge(merge);
+  table += fmt::format("{:<22} {:<9} {:>7} {:>8} {:>9} {:>9} {:>7} {:>7} {:>7}\n", "merge", "",
+                       "matches", "error m", "largest", "error deg", "S", "ai", "first s");
+  std::map<std::string, std::vector<json>> pairs;
+  for (const json& merge : summary["merges"]) {
+    pairs[text(merge["a"], "?") + " - " + text(merge["b"], "?")].push_back(merge);
+  }
+  for (const auto& [pair, merges] : pairs) table += render_pair(pair, merges);
   return table;
 }
 

@@ -116,5 +116,14 @@ TEST(RenderSummary, shows_helmets_hashes_and_errors) {
   EXPECT_THAT(table, Not(HasSubstr("none")));
 }
 
+TEST(RenderSummary, has_one_line_for_a_pair_with_its_largest_error) {
+  json seen = coordinator("abc1");
+  seen["merges"] = json::array({merge(true, 5.25), merge(true, 5.02)});
+  const std::string table = render_summary(make_summary(two_helmets("abc1", "abc1"), seen, 1.0));
+  EXPECT_EQ(table.find("alpha - bravo"), table.rfind("alpha - bravo"));
+  EXPECT_THAT(table, HasSubstr("0.020"));
+  EXPECT_THAT(table, HasSubstr("0.250"));
+}
+
 }  // namespace
 }  // namespace lifeline::demo
