@@ -13,7 +13,7 @@ namespace {
 
 constexpr Duration kLook = std::chrono::milliseconds(500);
 /// What the coordinator gets beyond its time limit for writing its report.
-constexpr Duration kReportTime = std::chrono::seconds(15);
+constexpr Duration kReportTime = std::chrono::seconds(45);
 
 ChildCommand command(const std::filesystem::path& program, const Mission& mission,
                      const std::string& name) {
