@@ -145,6 +145,7 @@ void Coordinator::take_outcome(SteadyTime now) {
   if (!outcome) return;
   schedule_.matched(outcome->a, outcome->b);
   const merging::LayerPair pair{outcome->a.layer, outcome->b.layer};
+  await_confirmation(*outcome);
   wire::MergeEvidence evidence = to_evidence(pair, outcome->result);
   evidence.envelope = evidence_stamper_.next(clock_.wall_now());
   if (auto sent = channels_.evidence->put(evidence); !sent) spdlog::warn("{}", sent.error().text);
@@ -155,6 +156,22 @@ void Coordinator::take_outcome(SteadyTime now) {
   graph_.set_edge(pair, to_edge(outcome->result));
   accepted_.push_back(record);
   follow_plan(clock_.wall_now());
+}
+
+void Coordinator::await_confirmation(MatchOutcome& outcome) {
+  auto& result = outcome.result;
+  const merging::LayerPair pair{outcome.a.layer, outcome.b.layer};
+  if (!result.accepted()) {
+    confirmation_.refuse(pair);
+    return;
+  }
+  const auto& best = result.candidates.front();
+  const bool last_chance = outcome.a.finished && outcome.b.finished;
+  if (confirmation_.confirm(
+          pair, {best.T_a_b, result.overlap_centre_b_m, best.agreeing_wall_m, last_chance}))
+    return;
+  result.verdict = matching::Verdict::wait;
+  result.reason = "fits once, to be confirmed when the maps have grown: " + result.reason;
 }
 
 void Coordinator::follow_plan(Timestamp wall_now) {

@@ -12,6 +12,7 @@
 #include "common/sharing/roster.hpp"
 #include "common/wire/channel.hpp"
 #include "coordinator/match_worker.hpp"
+#include "coordinator/merging/confirmation.hpp"
 #include "coordinator/merging/directive_writer.hpp"
 
 namespace lifeline {
@@ -78,6 +79,8 @@ class Coordinator {
   void count_known_cells(SteadyTime now);
   void match_next();
   void take_outcome(SteadyTime now);
+  /// An accepted match that no earlier one seconds waits for the next.
+  void await_confirmation(MatchOutcome& outcome);
   void follow_plan(Timestamp wall_now);
   void send_directive(Timestamp wall_now);
   void refuse(const std::string& topic, const Error& error);
@@ -92,6 +95,7 @@ class Coordinator {
   sharing::FusedMap common_map_;
   sharing::Roster roster_;
   merging::MergeSchedule schedule_;
+  merging::Confirmation confirmation_;
   merging::MergeGraph graph_;
   merging::DirectiveWriter writer_;
   std::map<LayerKey, merging::LayerProgress> progress_;

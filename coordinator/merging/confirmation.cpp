@@ -1,0 +1,25 @@
+#include "coordinator/merging/confirmation.hpp"
+
+#include <cmath>
+
+namespace lifeline::merging {
+
+bool Confirmation::confirm(const LayerPair& pair, const Proposal& proposal) {
+  const auto before = proposed_.find(pair);
+  const bool seconded = before != proposed_.end() && agree(before->second, proposal);
+  proposed_.insert_or_assign(pair, proposal);
+  return seconded || proposal.last_chance || proposal.agreeing_wall_m >= config_.enough_wall_m;
+}
+
+void Confirmation::refuse(const LayerPair& pair) {
+  proposed_.erase(pair);
+}
+
+bool Confirmation::agree(const Proposal& before, const Proposal& now) const {
+  const Eigen::Vector2d& centre = now.overlap_centre_b_m;
+  return (before.T_a_b * centre - now.T_a_b * centre).norm() <= config_.same_place_m &&
+         std::abs(normalise_angle(before.T_a_b.yaw_rad - now.T_a_b.yaw_rad)) <=
+             config_.same_turn_rad;
+}
+
+}  // namespace lifeline::merging

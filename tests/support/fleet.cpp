@@ -1,0 +1,97 @@
+#include "tests/support/fleet.hpp"
+
+#include "agents/sources/open_source.hpp"
+#include "common/base/check.hpp"
+
+namespace lifeline::test {
+namespace {
+
+constexpr const char* kMission = "drill";
+constexpr Duration kTick = std::chrono::milliseconds(100);
+
+sharing::Speaker speaker(const std::string& id) {
+  return {AgentId::parse(id).value(), kMission, Incarnation{std::hash<std::string>{}(id) | 1U}};
+}
+
+sharing::HelmetSharingConfig sharing_config(const std::string& id) {
+  return {speaker(id), {AgentId::parse(id).value(), MapId{1}, Floor{0}}, GridGeometry{}, {}};
+}
+
+sharing::HelmetChannels helmet_channels(wire::LoopbackBus& bus) {
+  return {bus.writer<wire::HelmetPose>(),  bus.writer<wire::HelmetScan>(),
+          bus.writer<wire::TsdTile>(),     bus.writer<wire::AgentStatus>(),
+          bus.reader<wire::TsdTile>(),     bus.reader<wire::MergeDirective>(),
+          bus.reader<wire::AgentStatus>(), [] { return std::uint64_t{0}; }};
+}
+
+CoordinatorChannels coordinator_channels(wire::LoopbackBus& bus) {
+  return {bus.reader<wire::TsdTile>(),       bus.reader<wire::HelmetPose>(),
+          bus.reader<wire::AgentStatus>(),   bus.writer<wire::MergeDirective>(),
+          bus.writer<wire::MergeEvidence>(), bus.writer<wire::AgentStatus>(),
+          [] { return std::uint64_t{0}; }};
+}
+
+}  // namespace
+
+Helmet::Helmet(const std::string& id, std::unique_ptr<sensing::ScanSource> source,
+               wire::LoopbackBus& bus, const Clock& clock)
+    : source_(std::move(source)),
+      mapper_({}, {}, {}),
+      sharing_(sharing_config(id), helmet_channels(bus), clock) {}
+
+void Helmet::step() {
+  if (source_ != nullptr) {
+    auto scan = source_->next();
+    LIFELINE_CHECK(scan.has_value());
+    if (scan->has_value()) {
+      mapper_.step(**scan);
+    } else {
+      source_.reset();
+    }
+  }
+  sharing::HelmetState state = mapper_.state();
+  if (finished()) state.state = wire::AgentState::finished;
+  sharing_.put(mapper_.take_changed_tiles());
+  sharing_.put(std::move(state));
+  sharing_.step();
+  if (auto peers = sharing_.take_peer_update()) mapper_.apply(*peers);
+}
+
+Fleet::Fleet(const std::vector<std::string>& sources, CoordinatorSettings settings) {
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    auto source = sources::open_source(sources[i]);
+    LIFELINE_CHECK(source.has_value());
+    helmets_.push_back(
+        std::make_unique<Helmet>("helmet" + std::to_string(i), *std::move(source), bus_, clock_));
+  }
+  coordinator_ = std::make_unique<Coordinator>(std::move(settings), coordinator_channels(bus_),
+                                               worker_, clock_);
+}
+
+Settlement Fleet::run(Duration deadline) {
+  Settlement now = Settlement::working;
+  for (Duration passed{}; passed < deadline && now != Settlement::shared; passed += kTick) {
+    clock_.advance(kTick);
+    bool finished = true;
+    for (auto& helmet : helmets_) {
+      helmet->step();
+      finished = finished && helmet->finished();
+    }
+    coordinator_->step();
+    if (finished) now = settlement(*coordinator_, helmets_.size());
+  }
+  return now;
+}
+
+CoordinatorSettings Fleet::default_settings() {
+  return {speaker("coordinator"), GridGeometry{}, {}, {}};
+}
+
+Pose2 true_T_a_b(const HelmetMapper& a, const HelmetMapper& b) {
+  const auto T_world_map = [](const HelmetMapper& mapper) {
+    return mapper.truth().front().pose * mapper.trajectory().front().pose.inverse();
+  };
+  return T_world_map(a).inverse() * T_world_map(b);
+}
+
+}  // namespace lifeline::test

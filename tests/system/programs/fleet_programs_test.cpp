@@ -1,0 +1,95 @@
+// The real programs, each a process of its own, over real DDS on the loopback interface.
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "common/base/ids.hpp"
+#include "deploy/demo/free_domain.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace lifeline::test {
+namespace {
+
+using std::chrono::seconds;
+
+class FleetProgramsTest : public testing::Test {
+ protected:
+  std::vector<std::string> agent(const std::string& id, const std::string& source) {
+    return {"lifeline-agent", "run",      "--id",  id,      "--source", source,      "--report",
+            report(),         "--domain", domain_, "--qos", qos_,       "--mission", mission_};
+  }
+  [[nodiscard]] std::string report() const { return (folder_.path() / "report").string(); }
+
+  nlohmann::json read(const std::string& name) {
+    std::ifstream file(folder_.path() / "report" / name);
+    return nlohmann::json::parse(file, nullptr, false);
+  }
+
+  support::TemporaryFolder folder_;
+  std::string domain_ =
+      std::to_string(demo::pick_free_domain(random_incarnation().value, 4).value());
+  std::string mission_ = "test-" + std::to_string(random_incarnation().value % 1'000'000'000);
+  std::string qos_ = LIFELINE_SOURCE_DIR "/config/qos/loopback.xml";
+};
+
+TEST_F(FleetProgramsTest, EveryProcessOfTheDemoEndsWithTheSameCommonMap) {
+  const Ended ended = run_program({"lifeline-demo", "--helmets", "2", "--report", report()},
+                                  folder_.path() / "log", seconds(150));
+  ASSERT_EQ(ended.status, 0) << ended.output;
+  const auto summary = read("summary.json");
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_TRUE(summary.at("shared").get<bool>());
+  const std::string sha256 = summary.at("coordinator").at("common_map_sha256");
+  EXPECT_EQ(sha256.size(), 64U);
+  ASSERT_EQ(summary.at("helmets").size(), 2U);
+  for (const auto& helmet : summary.at("helmets")) {
+    EXPECT_EQ(helmet.at("common_map_sha256"), sha256);
+    EXPECT_EQ(helmet.at("fingerprint"), summary.at("helmets")[0].at("fingerprint"));
+    EXPECT_LE(helmet.at("trajectory_rmse_m").get<double>(), 0.10);
+    EXPECT_GT(helmet.at("scans").get<int>(), 100);
+    EXPECT_GT(helmet.at("bytes_sent").get<std::int64_t>(), 1000);
+  }
+  for (const auto& merge : summary.at("merges")) {
+    if (!merge.at("accepted").get<bool>()) continue;
+    EXPECT_LE(merge.at("error_m").get<double>(), 0.10);
+    EXPECT_LE(merge.at("error_deg").get<double>(), 1.0);
+  }
+  EXPECT_GT(std::filesystem::file_size(folder_.path() / "report/common_map.png"), 1000U);
+}
+
+TEST_F(FleetProgramsTest, ASecondHelmetOfOneIdDoesNotStartAndBothSaySo) {
+  Program first(agent("alpha", "sim:office?duration=600"), folder_.path() / "first.log");
+  std::this_thread::sleep_for(seconds(3));
+  const Ended second = run_program(agent("alpha", "sim:office?duration=600&walk_seed=9"),
+                                   folder_.path() / "second.log", seconds(30));
+  EXPECT_EQ(second.status, 1) << second.output;
+  EXPECT_EQ(lines_with(second.output, "lifeline-agent: another helmet calls itself alpha already"),
+            1U)
+      << second.output;
+  EXPECT_TRUE(first.wait_for_output("another helmet calls itself alpha too", seconds(10)))
+      << first.output();
+  first.send(SIGTERM);
+  EXPECT_EQ(first.wait(seconds(20)).status, 0)
+      << "the one at work goes on, and stops in good order";
+}
+
+TEST_F(FleetProgramsTest, AHelmetMapsWithNobodyElseThere) {
+  Program alpha(agent("alpha", "sim:office?duration=20&rate=x10&beams=400"),
+                folder_.path() / "alpha.log");
+  ASSERT_TRUE(alpha.wait_for_output("last scan", seconds(40))) << alpha.output();
+  alpha.send(SIGINT);
+  ASSERT_EQ(alpha.wait(seconds(20)).status, 0) << alpha.output();
+  const auto helmet = read("alpha.json");
+  EXPECT_EQ(helmet.at("scans").get<int>() + helmet.at("scans_dropped").get<int>(), 200);
+  EXPECT_EQ(helmet.at("common_map_sha256"), "");
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report/alpha.lifemap"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report/alpha.truth.tum"));
+}
+
+}  // namespace
+}  // namespace lifeline::test
