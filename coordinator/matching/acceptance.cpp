@@ -1,0 +1,114 @@
+#include "coordinator/matching/acceptance.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace lifeline::matching {
+namespace {
+
+constexpr AcceptanceLimits kLimits;
+constexpr std::size_t kMaxReason = 256;
+
+struct Judgement {
+  Verdict verdict;
+  std::string reason;
+};
+
+std::string place(const Pose2& T) {
+  return fmt::format("({:.1f} m, {:.1f} m, {:.0f} deg)", T.x_m, T.y_m,
+                     T.yaw_rad * 180.0 / std::numbers::pi);
+}
+
+double margin_of(const MatchResult& result) {
+  if (result.candidates.empty() || result.candidates.front().score <= 0) return 0.0;
+  if (result.candidates.size() < 2) return 1.0;
+  const double second = std::max(0.0, result.candidates[1].score);
+  return 1.0 - second / result.candidates.front().score;
+}
+
+/// The criteria of the paper, which both ways must meet; no reason when they are.
+std::string fails_paper(const MatchCandidate& best, const MatchConfig& config) {
+  if (best.s_overlapping <= config.min_s_overlapping) {
+    return fmt::format("the maps share too little: S_overlapping {:.4f}, needed {:.4f}",
+                       best.s_overlapping, config.min_s_overlapping);
+  }
+  if (best.acceptance_index < config.min_acceptance_index) {
+    return fmt::format(
+        "cells differ where the maps overlap: acceptance index {:.3f}, needed {:.3f}",
+        best.acceptance_index, config.min_acceptance_index);
+  }
+  return {};
+}
+
+Judgement judge_spectra(const MatchResult& result, const MatchConfig& config) {
+  const MatchCandidate& best = result.candidates.front();
+  if (const std::string reason = fails_paper(best, config); !reason.empty()) {
+    return {Verdict::wait, reason};
+  }
+  return {Verdict::accepted,
+          fmt::format("S_overlapping {:.4f} and acceptance index {:.3f} reach what is asked for",
+                      best.s_overlapping, best.acceptance_index)};
+}
+
+Judgement judge_oriented(const MatchResult& result, const MatchConfig& config) {
+  const MatchCandidate& best = result.candidates.front();
+  if (best.agreeing_wall_m < kLimits.min_agreeing_wall_m) {
+    return {Verdict::wait,
+            fmt::format("only {:.1f} m of wall agree at the best place, {:.1f} m needed",
+                        best.agreeing_wall_m, kLimits.min_agreeing_wall_m)};
+  }
+  if (best.conflict > kLimits.max_conflict) {
+    return {
+        Verdict::rejected,
+        fmt::format("{:.0f} % of the wall at the best place stands in space that the other map saw "
+                    "free, at most {:.0f} % may",
+                    100 * best.conflict, 100 * kLimits.max_conflict)};
+  }
+  if (result.margin < kLimits.min_margin) {
+    return {
+        Verdict::wait,
+        fmt::format("two places fit: {} with {:.1f} m and {} with {:.1f} m of wall; the maps must "
+                    "grow to tell them apart",
+                    place(best.T_a_b), best.score, place(result.candidates[1].T_a_b),
+                    result.candidates[1].score)};
+  }
+  if (best.constraint_m < kLimits.min_constraint_m) {
+    return {Verdict::wait,
+            fmt::format(
+                "the shared walls run one way only ({:.1f} m across, {:.1f} m needed): the maps "
+                "could slide along them",
+                best.constraint_m, kLimits.min_constraint_m)};
+  }
+  if (const std::string reason = fails_paper(best, config); !reason.empty()) {
+    return {Verdict::wait, reason};
+  }
+  return {
+      Verdict::accepted,
+      fmt::format("{:.1f} m of wall agree, {:.1f} % contradict; the next best place is {:.0f} % "
+                  "worse",
+                  best.agreeing_wall_m, 100 * best.conflict, 100 * result.margin)};
+}
+
+Judgement decide(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config,
+                 const MatchResult& result) {
+  if (a.walls.empty()) return {Verdict::wait, "the first map has no walls yet"};
+  if (b.walls.empty()) return {Verdict::wait, "the second map has no walls yet"};
+  if (result.candidates.empty()) return {Verdict::wait, "no place was found where walls agree"};
+  return config.method == Method::spectra ? judge_spectra(result, config)
+                                          : judge_oriented(result, config);
+}
+
+}  // namespace
+
+void judge(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config,
+           MatchResult& result) {
+  result.margin = margin_of(result);
+  const Judgement judgement = decide(a, b, config, result);
+  result.verdict = judgement.verdict;
+  result.reason = judgement.reason.substr(0, kMaxReason);
+}
+
+}  // namespace lifeline::matching

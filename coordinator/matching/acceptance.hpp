@@ -1,0 +1,22 @@
+#pragma once
+
+#include "coordinator/matching/map_features.hpp"
+#include "coordinator/matching/match_types.hpp"
+
+namespace lifeline::matching {
+
+/// What the default path asks for beyond s_0 and the acceptance index; how the values were found is
+/// told in docs/matching.md.
+struct AcceptanceLimits {
+  double min_agreeing_wall_m = 4.0;  ///< less could be chance
+  double max_conflict = 0.12;        ///< of the wall that speaks for or against
+  double min_margin = 0.35;          ///< by which the best leads the second hypothesis
+  double min_constraint_m = 0.8;     ///< else the maps could slide along each other
+};
+
+/// Fills in margin, verdict and reason from the candidates of `result`. In doubt the verdict is
+/// wait: maps grow. With Method::spectra the paper's two criteria decide alone.
+void judge(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config,
+           MatchResult& result);
+
+}  // namespace lifeline::matching

@@ -1,0 +1,92 @@
+#include "coordinator/matching/map_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "common/base/check.hpp"
+#include "coordinator/matching/preprocess.hpp"
+
+namespace lifeline::matching {
+namespace {
+
+constexpr std::size_t kMaxWallPoints = 400'000;
+/// So that walls at the edge of what is known have neighbours.
+constexpr int kMargin = 8;
+
+Result<void> check_extent(std::int64_t columns, std::int64_t rows) {
+  if (columns <= kMaxCellsPerSide && rows <= kMaxCellsPerSide && columns * rows <= kMaxCells)
+    return {};
+  return fail(ErrorCode::unsupported,
+              "the map has {} x {} cells: at most {} a side and {} million in all are matched",
+              columns, rows, kMaxCellsPerSide, kMaxCells / 1'000'000);
+}
+
+Result<void> check_size(const OccupancyGrid& grid) {
+  if (!std::isfinite(grid.cell_size_m) || grid.cell_size_m <= 0) {
+    return fail(ErrorCode::bad_data, "the map's cell size is {} m: it must be a positive number",
+                grid.cell_size_m);
+  }
+  if (!grid.origin_m.allFinite()) {
+    return fail(ErrorCode::bad_data, "the map's origin ({}, {}) is not a number", grid.origin_m.x(),
+                grid.origin_m.y());
+  }
+  if (const auto extent = check_extent(grid.columns, grid.rows); !extent) return extent;
+  LIFELINE_CHECK(grid.columns >= 0 && grid.rows >= 0 &&
+                 grid.cells.size() ==
+                     static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
+  return {};
+}
+
+/// Before a dense grid is made of it.
+Result<void> check_extent(const TsdGrid& tsd) {
+  const std::vector<TileIndex> tiles = tsd.tiles();
+  if (tiles.empty()) return {};
+  std::int32_t bottom = tiles.front().y, top = bottom;
+  for (const TileIndex tile : tiles) {
+    bottom = std::min(bottom, tile.y);
+    top = std::max(top, tile.y);
+  }
+  return check_extent(kTileSide * (std::int64_t{tiles.back().x} - tiles.front().x + 1),
+                      kTileSide * (std::int64_t{top} - bottom + 1));
+}
+
+/// Completes the features from the raw `cropped` grid and its dense wall points.
+Result<MapFeatures> complete(const OccupancyGrid& cropped, const std::vector<WallPoint>& dense) {
+  MapFeatures features;
+  features.cell_size_m = cropped.cell_size_m;
+  features.origin_map_m = cropped.origin_m;
+  features.walls = thin_out(dense, kWallSpacing_m);
+  if (features.walls.size() > kMaxWallPoints) {
+    return fail(ErrorCode::unsupported,
+                "the map has {} pieces of wall, more than {}: not a building",
+                features.walls.size(), kMaxWallPoints);
+  }
+  features.skeleton = thin_out(features.walls, kSkeletonSpacing_m);
+  features.field = WallField(cropped, features.walls);
+  features.oriented = oriented_spectrum(features.walls);
+  features.filtered = filter_noise(cropped);
+  for (const WallPoint& wall : features.walls) features.wall_m += wall.length_m;
+  features.known_m2 =
+      static_cast<double>(known_cells(cropped)) * cropped.cell_size_m * cropped.cell_size_m;
+  return features;
+}
+
+}  // namespace
+
+Result<MapFeatures> build_features(const OccupancyGrid& grid) {
+  if (const auto checked = check_size(grid); !checked) return forward_error(checked);
+  const OccupancyGrid cropped = crop_to_known(grid, kMargin);
+  return complete(cropped, wall_points(cropped));
+}
+
+Result<MapFeatures> build_features(const TsdGrid& tsd) {
+  if (const auto checked = check_extent(tsd); !checked) return forward_error(checked);
+  const OccupancyGrid grid = to_occupancy(tsd);
+  if (const auto checked = check_size(grid); !checked) return forward_error(checked);
+  const OccupancyGrid cropped = crop_to_known(grid, kMargin);
+  return complete(cropped, wall_points(tsd, cropped.origin_m));
+}
+
+}  // namespace lifeline::matching

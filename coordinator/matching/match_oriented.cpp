@@ -1,0 +1,110 @@
+#include "coordinator/matching/match_oriented.hpp"
+
+#include <array>
+#include <numbers>
+#include <vector>
+
+#include "coordinator/matching/candidate.hpp"
+#include "coordinator/matching/compare_walls.hpp"
+#include "coordinator/matching/correlate_walls.hpp"
+#include "coordinator/matching/hypotheses.hpp"
+#include "coordinator/matching/refine.hpp"
+
+namespace lifeline::matching {
+namespace {
+
+// Each stage keeps fewer hypotheses and looks at them more closely.
+constexpr std::size_t kPeaksPerRotation = 64;
+constexpr std::size_t kKeptPerRotation = 24;
+constexpr std::size_t kRefinedFully = 16;
+constexpr std::size_t kReported = 6;
+constexpr std::size_t kRotationSeparation = 4 * kSpectrumBinsPerDegree;
+/// In the correlation positions are rough, and so are conflicts: they count less than at the end.
+constexpr float kSearchConflictWeight = 1.5F;
+constexpr WallGate kSearchGate{0.25F, 0.80F};
+constexpr WallGate kCoarseGate{0.15F, 0.85F};
+constexpr std::array<float, 6> kCoarseScales_m{0.30F, 0.25F, 0.20F, 0.15F, 0.12F, 0.10F};
+constexpr std::array<float, 6> kFineScales_m{0.12F, 0.09F, 0.07F, 0.05F, 0.05F, 0.05F};
+
+double score_of(const WallFigures& b_on_a, const WallFigures& a_on_b) {
+  return 0.5 * (b_on_a.agreeing_m + a_on_b.agreeing_m -
+                kConflictWeight * (b_on_a.conflicting_m + a_on_b.conflicting_m));
+}
+
+double coarse_score(const MapFeatures& a, const MapFeatures& b, const Pose2& T_a_b,
+                    const WallGate& gate) {
+  return score_of(compare_walls(b.skeleton, T_a_b, a, gate),
+                  compare_walls(a.skeleton, T_a_b.inverse(), b, gate));
+}
+
+double fine_score(const MapFeatures& a, const MapFeatures& b, const Pose2& T_a_b) {
+  return score_of(compare_walls(b.walls, T_a_b, a, kFineGate),
+                  compare_walls(a.walls, T_a_b.inverse(), b, kFineGate));
+}
+
+Eigen::Vector2d middle_of(const std::vector<WallPoint>& walls) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const WallPoint& wall : walls) sum += wall.p.cast<double>();
+  return walls.empty() ? sum : Eigen::Vector2d(sum / static_cast<double>(walls.size()));
+}
+
+/// The correlation's peaks at one rotation, as far as they are worth refining.
+std::vector<Hypothesis> search_rotation(const MapFeatures& a, const MapFeatures& b,
+                                        double yaw_rad) {
+  std::vector<Hypothesis> found;
+  for (const CorrelationPeak& peak :
+       correlate_walls(a, b, yaw_rad, kSearchConflictWeight, kPeaksPerRotation)) {
+    found.push_back({peak.T_a_b, coarse_score(a, b, peak.T_a_b, kSearchGate)});
+  }
+  keep_best(found, kKeptPerRotation);
+  return found;
+}
+
+std::vector<Hypothesis> search(const MapFeatures& a, const MapFeatures& b, std::size_t rotations) {
+  const Spectrum correlation = circular_correlation(a.oriented, b.oriented);
+  std::vector<Hypothesis> hypotheses;
+  for (const SpectrumPeak& peak : circular_maxima(correlation, kRotationSeparation, rotations)) {
+    const double yaw_rad =
+        peak.bin / static_cast<double>(correlation.size()) * 2 * std::numbers::pi;
+    for (const Hypothesis& h : search_rotation(a, b, yaw_rad)) hypotheses.push_back(h);
+  }
+  return hypotheses;
+}
+
+/// All on the skeletons first, then the best and distinct ones on all walls.
+void refine_all(const MapFeatures& a, const MapFeatures& b, std::vector<Hypothesis>& hypotheses) {
+  const Eigen::Vector2d p_b = middle_of(b.skeleton);
+  for (Hypothesis& h : hypotheses) {
+    h.T_a_b = refine(a, b, h.T_a_b, kCoarseScales_m, WallDetail::skeleton);
+    h.score = coarse_score(a, b, h.T_a_b, kCoarseGate);
+  }
+  keep_best(hypotheses, hypotheses.size());
+  keep_distinct(hypotheses, p_b);
+  keep_best(hypotheses, kRefinedFully);
+  for (Hypothesis& h : hypotheses) {
+    h.T_a_b = refine(a, b, h.T_a_b, kFineScales_m, WallDetail::all);
+    h.score = fine_score(a, b, h.T_a_b);
+  }
+  keep_best(hypotheses, hypotheses.size());
+  keep_distinct(hypotheses, p_b);
+  keep_best(hypotheses, kReported);
+}
+
+}  // namespace
+
+MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config) {
+  std::vector<Hypothesis> hypotheses = search(a, b, config.rotation_candidates);
+  refine_all(a, b, hypotheses);
+  MatchResult result;
+  for (const Hypothesis& h : hypotheses) {
+    const MeasuredCandidate measured = measure_candidate(a, b, h.T_a_b, config);
+    if (result.candidates.empty()) {
+      result.overlap_centre_b_m = measured.overlap_centre_b_m;
+      result.covariance = covariance_in_map_frames(a, b, h.T_a_b);
+    }
+    result.candidates.push_back(measured.candidate);
+  }
+  return result;
+}
+
+}  // namespace lifeline::matching

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "coordinator/matching/map_features.hpp"
+#include "coordinator/matching/match_types.hpp"
+
+namespace lifeline::matching {
+
+/// The default way to T_G: rotations from the oriented spectra, translations from the correlation
+/// of the walls, robust refinement below a cell. Returns distinct hypotheses with their figures,
+/// best first, and the best one's covariance and overlap; the verdict is left to judge().
+[[nodiscard]] MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b,
+                                         const MatchConfig& config);
+
+}  // namespace lifeline::matching

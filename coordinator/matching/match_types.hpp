@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/grid/pose2.hpp"
+
+namespace lifeline::matching {
+
+/// How T_G is looked for.
+enum class Method {
+  oriented,  ///< oriented walls: spectrum over the full circle, 2D correlation, sub-cell refinement
+  spectra,   ///< the paper's section 3.3: Hough spectrum, x and y spectra, Eq. 12 and 13 alone
+};
+
+/// What the caller may choose. The defaults are those of the configuration schema.
+struct MatchConfig {
+  Method method = Method::oriented;
+  double area_x_m = 30.0;  ///< mission area: gridx * gridy of Eq. 12, in metres
+  double area_y_m = 30.0;
+  double min_s_overlapping = 0.01;       ///< s_0 of Eq. 12
+  double min_acceptance_index = 0.85;    ///< of Eq. 13
+  std::size_t rotation_candidates = 10;  ///< how many peaks of the spectra's correlation are tried
+};
+
+/// One way to lay map b on map a, with the figures that speak for and against it.
+struct MatchCandidate {
+  Pose2 T_a_b;                    ///< takes b's map coordinates to a's
+  double s_overlapping = 0.0;     ///< Eq. 12
+  double acceptance_index = 0.0;  ///< Eq. 13
+  double agreeing_wall_m = 0.0;   ///< length of wall that both maps saw, facing the same way
+  double wall_agreement = 0.0;    ///< share of the wall in jointly seen area that agrees, 0 to 1
+  double conflict = 0.0;          ///< share of that wall which stands in the other map's free space
+  double constraint_m = 0.0;      ///< agreeing wall across the worst fixed direction of sliding
+  double score = 0.0;             ///< agreeing less contradicting wall, in metres
+};
+
+enum class Verdict {
+  accepted,  ///< the maps may be merged by T_a_b
+  wait,      ///< not decided: the maps must grow first
+  rejected,  ///< what the maps share contradicts each other
+};
+
+[[nodiscard]] const char* to_string(Verdict verdict);
+[[nodiscard]] const char* to_string(Method method);
+
+/// The evidence of one match. `candidates` is ordered from best to worst, each a distinct
+/// hypothesis; it is empty when there was nothing to compare.
+struct MatchResult {
+  Verdict verdict = Verdict::wait;
+  std::string reason;  ///< one sentence, at most 256 characters
+  std::vector<MatchCandidate> candidates;
+  double margin =
+      0.0;  ///< 1 - score of the second hypothesis / score of the best; 1 with no second
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the best T_a_b: x_m, y_m, yaw_rad
+  Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< middle of the agreeing wall, in b's frame
+  double match_ms = 0.0;                         ///< time of match_maps alone
+
+  [[nodiscard]] bool accepted() const { return verdict == Verdict::accepted; }
+};
+
+}  // namespace lifeline::matching
