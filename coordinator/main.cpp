@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/base/command_line.hpp"
+#include "coordinator/match_command.hpp"
 #include "coordinator/run_command.hpp"
 
 namespace lifeline {
@@ -23,6 +24,19 @@ void add_run_command(CLI::App& app, CoordinatorRunOptions& options, int& status)
   run->callback([&options, &status] { status = run_coordinator_command(options); });
 }
 
+void add_match_command(CLI::App& app, MatchCommandOptions& options, int& status) {
+  CLI::App* match = app.add_subcommand("match", "Find how two saved maps fit together");
+  match->add_option("a", options.a, "First map: NAME.yaml (ROS map_server) or NAME.lifemap")
+      ->required();
+  match->add_option("b", options.b, "Second map")->required();
+  match->add_flag("--json", options.json, "Print one JSON object");
+  match->add_option("--matching", options.matching, "oriented, or spectra (the paper's path)")
+      ->capture_default_str();
+  match->add_option("--picture", options.picture,
+                    "PNG file to write: the second map laid on the first");
+  match->callback([&options, &status] { status = run_match_command(options); });
+}
+
 }  // namespace
 }  // namespace lifeline
 
@@ -31,5 +45,7 @@ int main(int argc, char** argv) {
   int status = 0;
   lifeline::CoordinatorRunOptions run_options;
   lifeline::add_run_command(app, run_options, status);
+  lifeline::MatchCommandOptions match_options;
+  lifeline::add_match_command(app, match_options, status);
   return lifeline::parse_command_line(app, argc, argv, status);
 }

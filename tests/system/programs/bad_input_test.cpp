@@ -31,7 +31,9 @@ class BadInputTest : public testing::Test {
                       const std::vector<std::string>& words) {
     const Ended ended = run_program(arguments, folder_.path() / "log");
     EXPECT_EQ(ended.status, status) << ended.output;
-    EXPECT_EQ(lines_with(ended.output, arguments[0] + ": "), 1U) << ended.output;
+    // The demo is run as `lifeline demo`, and speaks under that name.
+    const std::string speaker = arguments[0] == "lifeline-demo" ? "lifeline demo" : arguments[0];
+    EXPECT_EQ(lines_with(ended.output, speaker + ": "), 1U) << ended.output;
     for (const auto& word : words)
       EXPECT_NE(ended.output.find(word), std::string::npos) << word << " in: " << ended.output;
   }
@@ -49,7 +51,7 @@ class BadInputTest : public testing::Test {
     const path config = write("agent.yaml", yaml);
     expect_refused({"lifeline-agent", "run", "--id", "alpha", "--source", "sim:office", "--config",
                     config.string()},
-                   1, words);
+                   2, words);
   }
 
   void expect_qos_refused(const path& qos, const std::vector<std::string>& words) {
