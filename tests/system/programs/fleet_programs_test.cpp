@@ -1,13 +1,16 @@
 // The real programs, each a process of its own, over real DDS on the loopback interface.
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "common/base/ids.hpp"
+#include "common/wire/tile_codec.hpp"
 #include "deploy/demo/free_domain.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -89,6 +92,50 @@ TEST_F(FleetProgramsTest, AHelmetMapsWithNobodyElseThere) {
   EXPECT_EQ(helmet.at("common_map_sha256"), "");
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report/alpha.lifemap"));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report/alpha.truth.tum"));
+}
+
+std::vector<std::uint8_t> from_hex(const std::string& text) {
+  std::vector<std::uint8_t> octets;
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+    octets.push_back(static_cast<std::uint8_t>(std::stoi(text.substr(i, 2), nullptr, 16)));
+  }
+  return octets;
+}
+
+TEST_F(FleetProgramsTest, CycloneDdsReadsTheTilesAndTheDirectiveOfARunningFleet) {
+  const std::string walk = "&walkers=2&duration=60&rate=x10&beams=400&seed=1";
+  Program reader({"lifeline-cyclone-reader", "--domain", domain_, "--seconds", "90", "--tiles",
+                  "40", "--directives", "1"},
+                 folder_.path() / "cyclone.log");
+  Program coordinator(
+      {"lifeline-coordinator", "run", "--domain", domain_, "--qos", qos_, "--mission", mission_},
+      folder_.path() / "coordinator.log");
+  Program alpha(agent("alpha", "sim:office?walker=0" + walk), folder_.path() / "alpha.log");
+  Program bravo(agent("bravo", "sim:office?walker=1" + walk), folder_.path() / "bravo.log");
+  const Ended read = reader.wait(seconds(100));
+  ASSERT_EQ(read.status, 0) << read.output;
+
+  std::size_t tiles = 0, known_cells = 0, directives = 0;
+  std::istringstream lines(read.output);
+  for (std::string line; std::getline(lines, line);) {
+    const auto sample = nlohmann::json::parse(line, nullptr, false);
+    if (!sample.is_object()) continue;
+    EXPECT_EQ(sample.at("mission_id"), mission_);
+    if (sample.at("topic") == "tsd_tile") {
+      const auto cells = wire::decode_tile(from_hex(sample.at("payload")), GridGeometry{});
+      ASSERT_TRUE(cells) << cells.error().text;
+      ++tiles;
+      known_cells += static_cast<std::size_t>(std::count_if(
+          cells->begin(), cells->end(), [](QuantisedCell cell) { return cell.weight > 0; }));
+    } else {
+      ++directives;
+      EXPECT_EQ(sample.at("members").size(), 2U);
+      EXPECT_GE(sample.at("epoch").get<int>(), 1);
+    }
+  }
+  EXPECT_GE(tiles, 40U);
+  EXPECT_GT(known_cells, 10'000U);
+  EXPECT_GE(directives, 1U);
 }
 
 }  // namespace
