@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "agents/run_command.hpp"
+#include "agents/slam_command.hpp"
 #include "common/base/command_line.hpp"
 
 namespace lifeline {
@@ -23,6 +24,21 @@ void add_run_command(CLI::App& app, AgentRunOptions& options, int& status) {
   run->callback([&options, &status] { status = run_agent_command(options); });
 }
 
+void add_slam_command(CLI::App& app, SlamCommandOptions& options, int& status) {
+  CLI::App* slam = app.add_subcommand("slam", "Map a source offline, as fast as it goes");
+  slam->add_option("--source", options.source,
+                   "Where scans come from, e.g. sim:office or carmen:LOG.gz?prior=odom")
+      ->required();
+  slam->add_option("--trajectory", options.trajectory,
+                   "TUM file to write; NAME.truth.tum beside it where the source knows the truth");
+  slam->add_option("--map", options.map, "Writes NAME.lifemap, NAME.pgm and NAME.yaml");
+  slam->add_option("--stats", options.stats, "JSON file to write: counts, times, memory");
+  slam->add_option("--config", options.config, "Configuration file (docs/parameters.md)");
+  slam->add_option("--matcher", options.matcher,
+                   "conventional, advanced or direct; overrides the configuration");
+  slam->callback([&options, &status] { status = run_slam_command(options); });
+}
+
 }  // namespace
 }  // namespace lifeline
 
@@ -32,5 +48,7 @@ int main(int argc, char** argv) {
   int status = 0;
   lifeline::AgentRunOptions run_options;
   lifeline::add_run_command(app, run_options, status);
+  lifeline::SlamCommandOptions slam_options;
+  lifeline::add_slam_command(app, slam_options, status);
   return lifeline::parse_command_line(app, argc, argv, status);
 }

@@ -79,8 +79,8 @@ Scan2 project_scan(const RawScan& raw, const ProjectionConfig& config) {
   const double c = std::cos(raw.angle_step_rad), s = std::sin(raw.angle_step_rad);
   Eigen::Vector2d along(std::cos(raw.first_angle_rad), std::sin(raw.first_angle_rad));
   for (const float range_m : raw.ranges_m) {
-    scan.beams.push_back(project(R_head_laser.leftCols<2>() * along, static_cast<double>(range_m),
-                                 raw, config));
+    scan.beams.push_back(
+        project(R_head_laser.leftCols<2>() * along, static_cast<double>(range_m), raw, config));
     along = {c * along.x() - s * along.y(), s * along.x() + c * along.y()};
   }
   const double swept_rad = std::abs(raw.angle_step_rad) * static_cast<double>(scan.beams.size());

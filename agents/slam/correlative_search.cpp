@@ -123,8 +123,7 @@ void CorrelativeSearch::score_yaw(const Pose2& centre, double yaw_rad, int windo
     const int column = static_cast<int>(std::floor(x_m / spacing_m_)) - window;
     const int row = static_cast<int>(std::floor(y_m / spacing_m_)) - window;
     if (column < 0 || row < 0 || column + side > columns_ || row + side > rows_) continue;
-    const std::int8_t* from =
-        field_.data() + static_cast<std::ptrdiff_t>(row) * columns_ + column;
+    const std::int8_t* from = field_.data() + static_cast<std::ptrdiff_t>(row) * columns_ + column;
     std::int16_t* sum = scores_.data();
     for (int dy = 0; dy < side; ++dy, from += columns_, sum += side) {
       for (int dx = 0; dx < side; ++dx) sum[dx] = static_cast<std::int16_t>(sum[dx] + from[dx]);
@@ -135,8 +134,7 @@ void CorrelativeSearch::score_yaw(const Pose2& centre, double yaw_rad, int windo
 double CorrelativeSearch::prior_penalty(const Prediction& prediction, double dx_m, double dy_m,
                                         double dyaw_rad) const {
   const double xy = (dx_m * dx_m + dy_m * dy_m) / (prediction.sigma_xy_m * prediction.sigma_xy_m);
-  const double yaw =
-      dyaw_rad * dyaw_rad / (prediction.sigma_yaw_rad * prediction.sigma_yaw_rad);
+  const double yaw = dyaw_rad * dyaw_rad / (prediction.sigma_yaw_rad * prediction.sigma_yaw_rad);
   return 0.5 * (xy + yaw);
 }
 

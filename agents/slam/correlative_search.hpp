@@ -13,14 +13,14 @@
 namespace lifeline::slam {
 
 struct SearchConfig {
-  int max_points = 150;           ///< of the scan that are compared
-  double max_range_m = 20.0;      ///< points further away take no part
-  double window_sigmas = 3.0;     ///< how far around the prediction is looked
+  int max_points = 150;        ///< of the scan that are compared
+  double max_range_m = 20.0;   ///< points further away take no part
+  double window_sigmas = 3.0;  ///< how far around the prediction is looked
   double max_window_m = 2.0;
   double max_window_rad = 0.6;
   int max_candidates = 6;
-  double free_penalty = 0.4;      ///< of a point in known free space, against 1 on a surface
-  double independent_points = 60; ///< a scan's agreement counts like so many observations
+  double free_penalty = 0.4;       ///< of a point in known free space, against 1 on a surface
+  double independent_points = 60;  ///< a scan's agreement counts like so many observations
 };
 
 /// A pose worth a closer look.
@@ -30,9 +30,9 @@ struct SearchCandidate {
   double score = 0.0;      ///< agreement and distance from the prediction, as a log-likelihood
 };
 
-/// Correlative search: compares the scan with the map at all poses of a lattice around a prediction,
-/// on a field of two cells' spacing that says how well a scan's point would fit there. The field is kept
-/// per tile until the tile changes. One owner.
+/// Correlative search: compares the scan with the map at all poses of a lattice around a
+/// prediction, on a field of two cells' spacing that says how well a scan's point would fit there.
+/// The field is kept per tile until the tile changes. One owner.
 class CorrelativeSearch {
  public:
   explicit CorrelativeSearch(SearchConfig config) : config_(config) {}

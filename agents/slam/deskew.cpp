@@ -30,8 +30,8 @@ void deskew(Scan2& scan, const Pose2& motion, Duration over) {
       beam.range_m = static_cast<float>(std::hypot(x, y));
       beam.angle_rad = static_cast<float>(std::atan2(y, x));
     } else {
-      beam.angle_rad = static_cast<float>(normalise_angle(
-          static_cast<double>(beam.angle_rad) + turn_rad_s * t_s));
+      beam.angle_rad = static_cast<float>(
+          normalise_angle(static_cast<double>(beam.angle_rad) + turn_rad_s * t_s));
     }
     const double turned = c * c1 - s * s1;
     s = s * c1 + c * s1;

@@ -37,7 +37,11 @@ void DirectMatcher::set_scan(std::span<const SurfacePiece> pieces) {
   const auto most = static_cast<std::size_t>(config_.max_points);
   const std::size_t stride = std::max<std::size_t>(1, (pieces.size() + most - 1) / most);
   for (std::size_t i = stride / 2; i < pieces.size(); i += stride) {
-    points_.push_back({pieces[i].point.x(), pieces[i].point.y(), std::pow(pieces[i].quality, config_.quality_power)*std::pow(std::clamp(pieces[i].left_m+pieces[i].right_m,0.02F,0.5F)*5, config_.length_power)});
+    points_.push_back(
+        {pieces[i].point.x(), pieces[i].point.y(),
+         std::pow(pieces[i].quality, config_.quality_power) *
+             std::pow(std::clamp(pieces[i].left_m + pieces[i].right_m, 0.02F, 0.5F) * 5,
+                      config_.length_power)});
   }
 }
 
@@ -57,7 +61,7 @@ DirectMatcher::Normal DirectMatcher::linearise(const TsdView& view, const Pose2&
     if (sample.value > kFree) continue;
     const float r = sample.value * truncation_m;
     const float fade = k2 / (k2 + r * r);
-    const float w = point.weight * fade * fade;
+    const float w = point.weight * fade * fade * (sample.weight / (sample.weight + config_.doubt));
     const float jx = slope * sample.gradient.x(), jy = slope * sample.gradient.y();
     const float jt = (jy * qx - jx * qy) * cell_m;
     hxx += w * jx * jx;

@@ -10,18 +10,20 @@
 namespace lifeline::slam {
 
 struct DirectConfig {
-  int max_points = 400;           ///< pieces of surface that take part; more are thinned evenly
+  int max_points = 400;  ///< pieces of surface that take part; more are thinned evenly
   int max_iterations = 15;
-  double first_kernel_m = 0.12;   ///< scale of the robust weight at the start ...
-  double last_kernel_m = 0.04;    ///< ... and in the end
-  double inlier_m = 0.10;         ///< residuals up to this agree with the map
-  float quality_power = 0.0F; float length_power=0.0F;
-  double sigma_m = 0.03;          ///< of one residual
-  double independent_points = 60; ///< how many independent residuals a scan is worth at most
+  double first_kernel_m = 0.12;  ///< scale of the robust weight at the start ...
+  double last_kernel_m = 0.04;   ///< ... and in the end
+  double inlier_m = 0.10;        ///< residuals up to this agree with the map
+  float quality_power = 0.0F;
+  float length_power = 0.0F;
+  float doubt = 0.0F;
+  double sigma_m = 0.03;           ///< of one residual
+  double independent_points = 60;  ///< how many independent residuals a scan is worth at most
 };
 
-/// Aligns a scan to the map directly: Gauss-Newton on the interpolated signed distance at the scan's
-/// points, robust weights that tighten from step to step, and the prediction as one more
+/// Aligns a scan to the map directly: Gauss-Newton on the interpolated signed distance at the
+/// scan's points, robust weights that tighten from step to step, and the prediction as one more
 /// observation - in a corridor it decides what the walls leave open. Slope and residual are in
 /// metres, so the result has a covariance. Keeps scratch memory; one owner.
 class DirectMatcher {
@@ -48,7 +50,7 @@ class DirectMatcher {
 
  private:
   struct Point {
-    float x, y;    ///< head frame, metres
+    float x, y;  ///< head frame, metres
     float weight;
   };
   /// Normal equations of one iteration, in metres and radians, about the head.

@@ -11,14 +11,14 @@ struct MatchError {
   double mean_error_m = 0.0;  ///< E_TF, divided by n_m
 };
 
-/// Algorithm 1 of the paper: does the match hold? The paper adds up the distances of the pairs, so its
-/// bound grows with the number of points; here E_TF0 bounds their mean (docs/decisions).
+/// Algorithm 1 of the paper: does the match hold? The paper adds up the distances of the pairs, so
+/// its bound grows with the number of points; here E_TF0 bounds their mean (docs/decisions).
 class FailureDetector {
  public:
   struct Config {
     int min_model_points = 30;       ///< n_min
     double max_mean_error_m = 0.08;  ///< E_TF0
-    double pair_gate_m = 0.4;        ///< a model point without a scan point this near has no partner
+    double pair_gate_m = 0.4;  ///< a model point without a scan point this near has no partner
   };
 
   explicit FailureDetector(Config config) : config_(config) {}

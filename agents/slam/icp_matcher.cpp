@@ -41,8 +41,8 @@ class Pairs {
 
 }  // namespace
 
-Pose2 IcpMatcher::match(const PointGrid& model, const PointSet& model_points,
-                        const PointSet& scan, Pose2 T_model_scan) const {
+Pose2 IcpMatcher::match(const PointGrid& model, const PointSet& model_points, const PointSet& scan,
+                        Pose2 T_model_scan) const {
   double gate_m = config_.first_gate_m;
   for (int i = 0; i < config_.max_iterations; ++i) {
     Pairs pairs;

@@ -7,7 +7,8 @@ namespace lifeline::slam {
 
 struct IcpConfig {
   int max_iterations = 30;
-  double first_gate_m = 0.4;  ///< pairs further apart do not count; falls from iteration to iteration
+  double first_gate_m =
+      0.4;  ///< pairs further apart do not count; falls from iteration to iteration
   double last_gate_m = 0.1;
   double gate_factor = 0.85;
 };

@@ -41,8 +41,8 @@ bool MapTracker::needs_search(const MatchResult& local, const Prediction& predic
 double MapTracker::score(const TsdView& view, const Pose2& T_map_head,
                          const Prediction& prediction) const {
   const Pose2& expected = prediction.T_map_head;
-  const double xy = (T_map_head.translation() - expected.translation()).norm() /
-                    prediction.sigma_xy_m;
+  const double xy =
+      (T_map_head.translation() - expected.translation()).norm() / prediction.sigma_xy_m;
   const double yaw =
       normalise_angle(T_map_head.yaw_rad - expected.yaw_rad) / prediction.sigma_yaw_rad;
   return search_.config().independent_points * direct_.agreement(view, T_map_head) -

@@ -13,16 +13,17 @@ namespace lifeline::slam {
 
 /// When a direct match is believed.
 struct TrackerConfig {
-  int min_known = 30;              ///< points where the map knows anything
-  double accept_share = 0.6;       ///< inliers among them
+  int min_known = 30;         ///< points where the map knows anything
+  double accept_share = 0.6;  ///< inliers among them
   double weak_share = 0.4;
-  double sure_share = 0.85;        ///< no search where the prediction led to this
-  double search_sigma_m = 0.15;    ///< always search where the prediction may be this far off
-  double lever_m = 5.0;            ///< what an error in yaw is worth
+  double sure_share = 0.85;      ///< no search where the prediction led to this
+  double search_sigma_m = 0.15;  ///< always search where the prediction may be this far off
+  double lever_m = 5.0;          ///< what an error in yaw is worth
 };
 
-/// The default way of placing a scan: direct alignment from the prediction and, where the prediction is
-/// loose or the result is poor, a correlative search whose best few places are aligned as well.
+/// The default way of placing a scan: direct alignment from the prediction and, where the
+/// prediction is loose or the result is poor, a correlative search whose best few places are
+/// aligned as well.
 class MapTracker {
  public:
   MapTracker(TrackerConfig config, DirectConfig direct, SearchConfig search)

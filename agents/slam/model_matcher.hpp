@@ -12,8 +12,9 @@
 
 namespace lifeline::slam {
 
-/// The paper's conventional path: the model M_k is ray-cast from the map at the last known position, RANSAC
-/// aligns the scan to it roughly, ICP finely (Eq. 1), and Algorithm 1 says whether the match holds.
+/// The paper's conventional path: the model M_k is ray-cast from the map at the last known
+/// position, RANSAC aligns the scan to it roughly, ICP finely (Eq. 1), and Algorithm 1 says whether
+/// the match holds.
 class ModelMatcher {
  public:
   ModelMatcher(RansacConfig ransac, IcpConfig icp, FailureDetector::Config detector,

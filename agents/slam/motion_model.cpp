@@ -42,8 +42,8 @@ Prediction MotionModel::predict(const MotionPrior& prior) const {
     yaw_rad = config_.odometry_yaw_rad + config_.odometry_share * (turn_rad + 0.3 * length_m);
   } else if (timed) {
     xy_m = std::min(xy_m, config_.floor_xy_m + 0.5 * config_.acceleration_m_s2 * dt_s * dt_s);
-    yaw_rad = std::min(
-        yaw_rad, config_.floor_yaw_rad + 0.5 * config_.yaw_acceleration_rad_s2 * dt_s * dt_s);
+    yaw_rad = std::min(yaw_rad,
+                       config_.floor_yaw_rad + 0.5 * config_.yaw_acceleration_rad_s2 * dt_s * dt_s);
   }
   if (prior.yaw_step_rad) yaw_rad = config_.attitude_yaw_rad;
   return {T_map_head_ * step, std::min(sigma_xy_m_ + xy_m, config_.lost_max_xy_m),

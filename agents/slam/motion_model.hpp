@@ -15,18 +15,18 @@ struct MotionConfig {
   double yaw_acceleration_rad_s2 = 8.0;  ///< the same of the head's turning
   double floor_xy_m = 0.01;              ///< however short the step
   double floor_yaw_rad = 0.01;
-  double attitude_yaw_rad = 0.015;       ///< of a yaw step of the attitude sensor
-  double odometry_share = 0.15;          ///< of the odometry's step, and of its turn
+  double attitude_yaw_rad = 0.015;  ///< of a yaw step of the attitude sensor
+  double odometry_share = 0.15;     ///< of the odometry's step, and of its turn
   double odometry_xy_m = 0.03;
   double odometry_yaw_rad = 0.02;
-  double max_xy_m = 0.4;                 ///< of one step; between keyframes nothing is known
+  double max_xy_m = 0.4;  ///< of one step; between keyframes nothing is known
   double max_yaw_rad = 0.3;
-  double lost_max_xy_m = 1.0;            ///< while nothing matches, step adds to step up to here
+  double lost_max_xy_m = 1.0;  ///< while nothing matches, step adds to step up to here
   double lost_max_yaw_rad = 0.5;
 };
 
-/// Predicts the pose from the last one: by odometry where there is any, else by the last translation
-/// and the yaw step of the attitude sensor (Eq. 5), else by the last step as a whole.
+/// Predicts the pose from the last one: by odometry where there is any, else by the last
+/// translation and the yaw step of the attitude sensor (Eq. 5), else by the last step as a whole.
 class MotionModel {
  public:
   explicit MotionModel(MotionConfig config) : config_(config) {}
@@ -47,9 +47,9 @@ class MotionModel {
  private:
   MotionConfig config_;
   Pose2 T_map_head_;
-  Pose2 last_step_;           ///< between the last two scans that matched, in the former's frame
-  Duration last_elapsed_{};   ///< of last_step_
-  double sigma_xy_m_ = 0.0;   ///< of T_map_head_, grown while lost
+  Pose2 last_step_;          ///< between the last two scans that matched, in the former's frame
+  Duration last_elapsed_{};  ///< of last_step_
+  double sigma_xy_m_ = 0.0;  ///< of T_map_head_, grown while lost
   double sigma_yaw_rad_ = 0.0;
 };
 

@@ -29,8 +29,7 @@ PointGrid::PointGrid(std::span<const Eigen::Vector2d> points, double bin_m) : bi
                static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(bin_along(p.x() - corner_.x(), columns_));
   };
-  first_of_bin_.assign(
-      static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
+  first_of_bin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   for (const Eigen::Vector2d& p : points) ++first_of_bin_[bin_of(p)];
   std::size_t total = 0;
   for (std::size_t& first : first_of_bin_) total = first += total;

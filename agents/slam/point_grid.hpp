@@ -9,7 +9,8 @@
 
 namespace lifeline::slam {
 
-/// Points sorted into square bins, for nearest neighbours within a bin's side. Built once, then read.
+/// Points sorted into square bins, for nearest neighbours within a bin's side. Built once, then
+/// read.
 class PointGrid {
  public:
   struct Neighbour {
@@ -33,9 +34,9 @@ class PointGrid {
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
   std::int32_t columns_ = 1;
   std::int32_t rows_ = 1;
-  std::vector<Eigen::Vector2d> points_;   ///< sorted by bin
-  std::vector<std::size_t> index_;        ///< of each, as given
-  std::vector<std::size_t> first_of_bin_; ///< with one more at the end
+  std::vector<Eigen::Vector2d> points_;    ///< sorted by bin
+  std::vector<std::size_t> index_;         ///< of each, as given
+  std::vector<std::size_t> first_of_bin_;  ///< with one more at the end
 };
 
 }  // namespace lifeline::slam

@@ -16,9 +16,9 @@ struct RansacConfig {
   std::uint32_t seed = 1;
 };
 
-/// Pre-alignment before ICP: a point of the model and a point of the scan, laid on each other with their
-/// normals, give a pose; of many such trials the one with the most points near the model is taken.
-/// The prediction itself is the first trial, so the result is never worse. Deterministic.
+/// Pre-alignment before ICP: a point of the model and a point of the scan, laid on each other with
+/// their normals, give a pose; of many such trials the one with the most points near the model is
+/// taken. The prediction itself is the first trial, so the result is never worse. Deterministic.
 class RansacMatcher {
  public:
   explicit RansacMatcher(RansacConfig config) : config_(config) {}

@@ -46,20 +46,28 @@ enum class PoseSource {
 
 [[nodiscard]] constexpr const char* name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::accepted: return "accepted";
-    case Verdict::weak: return "weak";
-    case Verdict::rejected: return "rejected";
+    case Verdict::accepted:
+      return "accepted";
+    case Verdict::weak:
+      return "weak";
+    case Verdict::rejected:
+      return "rejected";
   }
   return "?";
 }
 
 [[nodiscard]] constexpr const char* name_of(PoseSource source) {
   switch (source) {
-    case PoseSource::start: return "start";
-    case PoseSource::map: return "map";
-    case PoseSource::search: return "search";
-    case PoseSource::scan_to_scan: return "scan_to_scan";
-    case PoseSource::dead_reckoning: return "dead_reckoning";
+    case PoseSource::start:
+      return "start";
+    case PoseSource::map:
+      return "map";
+    case PoseSource::search:
+      return "search";
+    case PoseSource::scan_to_scan:
+      return "scan_to_scan";
+    case PoseSource::dead_reckoning:
+      return "dead_reckoning";
   }
   return "?";
 }

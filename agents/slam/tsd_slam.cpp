@@ -137,9 +137,15 @@ void TsdSlam::push(const Scan2& scan, const Pose2& T_map_head) {
 
 void TsdSlam::change_trust(Verdict verdict) {
   switch (verdict) {
-    case Verdict::accepted: trust_percent_ = std::min(100, trust_percent_ + 20); break;
-    case Verdict::weak: trust_percent_ = std::max(20, trust_percent_ - 5); break;
-    case Verdict::rejected: trust_percent_ = std::max(0, trust_percent_ - 20); break;
+    case Verdict::accepted:
+      trust_percent_ = std::min(100, trust_percent_ + 20);
+      break;
+    case Verdict::weak:
+      trust_percent_ = std::max(20, trust_percent_ - 5);
+      break;
+    case Verdict::rejected:
+      trust_percent_ = std::max(0, trust_percent_ - 20);
+      break;
   }
 }
 

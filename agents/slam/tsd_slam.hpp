@@ -25,8 +25,8 @@ enum class Matcher {
 struct SlamConfig {
   Matcher matcher = Matcher::direct;
   double max_range_m = 30.0;
-  int min_model_points = 30;        ///< n_min of Algorithm 1
-  double max_mean_error_m = 0.08;   ///< E_TF0 of Algorithm 1, as a mean
+  int min_model_points = 30;       ///< n_min of Algorithm 1
+  double max_mean_error_m = 0.08;  ///< E_TF0 of Algorithm 1, as a mean
   int gicp_max_iterations = 100;
 
   SurfaceConfig surface;
@@ -48,8 +48,8 @@ struct SlamStep {
   MatchEvidence evidence;
   Verdict verdict = Verdict::rejected;
   PoseSource source = PoseSource::dead_reckoning;
-  bool pushed = false;      ///< the scan entered the layer
-  int trust_percent = 0;    ///< how far the pose can be relied on; falls while nothing matches
+  bool pushed = false;    ///< the scan entered the layer
+  int trust_percent = 0;  ///< how far the pose can be relied on; falls while nothing matches
 };
 
 /// One helmet's SLAM (paper, section 2). Frame: `map`, whose origin is the first pose. One owner.

@@ -34,7 +34,9 @@ void WorkingMap::set_peer_tile(TileIndex tile, std::shared_ptr<const TsdTile> ce
   peer.stale = true;
 }
 
-void WorkingMap::clear_peers() { peers_.clear(); }
+void WorkingMap::clear_peers() {
+  peers_.clear();
+}
 
 void WorkingMap::set_own_weight(double w_T1) {
   LIFELINE_CHECK(w_T1 >= 0.0 && w_T1 <= 1.0);

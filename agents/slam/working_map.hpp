@@ -8,8 +8,8 @@
 
 namespace lifeline::slam {
 
-/// What a helmet matches against: its own layer blended with its peers' cells by Eq. 8-10, in its own
-/// map frame. The own layer is never changed by the blend. Blended tiles are made when they are
+/// What a helmet matches against: its own layer blended with its peers' cells by Eq. 8-10, in its
+/// own map frame. The own layer is never changed by the blend. Blended tiles are made when they are
 /// looked at and kept until a side of them changes; without peers a look costs one comparison more
 /// than at the layer itself. One owner, not thread-safe.
 class WorkingMap {
@@ -46,8 +46,8 @@ class WorkingMap {
   std::unordered_map<TileIndex, PeerTile> peers_;
 };
 
-/// Eq. 8-10 for one cell: w_T1 of the own distance and 1 - w_T1 of the peer's where both are known, else
-/// the one that is.
+/// Eq. 8-10 for one cell: w_T1 of the own distance and 1 - w_T1 of the peer's where both are known,
+/// else the one that is.
 [[nodiscard]] TsdCell blended(TsdCell own, TsdCell peer, double w_T1);
 
 }  // namespace lifeline::slam

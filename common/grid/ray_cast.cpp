@@ -14,8 +14,8 @@ class RayWalk {
 
   /// The distance at which the surface is met, or a negative number.
   [[nodiscard]] float walk(float max_range) {
-    const auto truncation = static_cast<float>(view_.geometry().truncation_m /
-                                               view_.geometry().cell_size_m);
+    const auto truncation =
+        static_cast<float>(view_.geometry().truncation_m / view_.geometry().cell_size_m);
     float before = -1.0F;  // value at the last step, if it was known and free
     float before_at = 0.0F;
     for (float at = 0.0F; at <= max_range;) {
@@ -62,7 +62,7 @@ class RayWalk {
   const TsdView& view_;
   Eigen::Vector2f from_;
   Eigen::Vector2f along_;
-  TsdView::Sample sample_{0.0F, Eigen::Vector2f::Zero()};
+  TsdView::Sample sample_{0.0F, Eigen::Vector2f::Zero(), 0.0F};
 };
 
 }  // namespace
@@ -82,8 +82,8 @@ std::optional<RayHit> cast_ray(const TsdView& view, const Eigen::Vector2d& from_
   (void)walk.sample(at);
   const Eigen::Vector2f& gradient = walk.last().gradient;
   const float length = gradient.norm();
-  const Eigen::Vector2f normal = length > 1e-6F ? Eigen::Vector2f(gradient / length)
-                                                : Eigen::Vector2f(-along);
+  const Eigen::Vector2f normal =
+      length > 1e-6F ? Eigen::Vector2f(gradient / length) : Eigen::Vector2f(-along);
   return RayHit{view.to_map(start + at * along), normal.cast<double>(),
                 static_cast<double>(at) * cell_m};
 }
@@ -93,8 +93,9 @@ std::vector<RayHit> ray_cast(const TsdView& view, const Pose2& T_map_head, const
   std::vector<RayHit> model;
   model.reserve(scan.beams.size());
   for (const Beam2& beam : scan.beams) {
-    const auto hit = cast_ray(view, T_map_head.translation(),
-                              T_map_head.yaw_rad + static_cast<double>(beam.angle_rad), max_range_m);
+    const auto hit =
+        cast_ray(view, T_map_head.translation(),
+                 T_map_head.yaw_rad + static_cast<double>(beam.angle_rad), max_range_m);
     if (hit) model.push_back(*hit);
   }
   return model;

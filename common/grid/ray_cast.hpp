@@ -24,8 +24,8 @@ struct RayHit {
 [[nodiscard]] std::optional<RayHit> cast_ray(const TsdView& view, const Eigen::Vector2d& from_map,
                                              double angle_rad, double max_range_m);
 
-/// M_k of the paper: what a lidar at `T_map_head` would see of the map. Beams of `scan` without a hit
-/// take part too: they may look at something the map knows. In the order of the beams; beams
+/// M_k of the paper: what a lidar at `T_map_head` would see of the map. Beams of `scan` without a
+/// hit take part too: they may look at something the map knows. In the order of the beams; beams
 /// that meet nothing are left out.
 [[nodiscard]] std::vector<RayHit> ray_cast(const TsdView& view, const Pose2& T_map_head,
                                            const Scan2& scan, double max_range_m);

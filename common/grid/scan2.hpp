@@ -25,10 +25,10 @@ struct Beam2 {
 
 /// A sweep of the lidar in the plane: what is matched and pushed.
 struct Scan2 {
-  Timestamp stamp{};             ///< of the first beam
-  Duration sweep_time{};         ///< from first to last beam, 0 = all at once
+  Timestamp stamp{};         ///< of the first beam
+  Duration sweep_time{};     ///< from first to last beam, 0 = all at once
   std::vector<Beam2> beams;  ///< in the order of the sweep
-  bool full_circle = false;      ///< the last beam is a neighbour of the first
+  bool full_circle = false;  ///< the last beam is a neighbour of the first
 
   [[nodiscard]] std::size_t hits() const {
     std::size_t count = 0;

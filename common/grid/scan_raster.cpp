@@ -22,8 +22,12 @@ Interval solve(float slope, float constant, float low, float high) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-std::int32_t first_centre_from(float x) { return static_cast<std::int32_t>(std::ceil(x - 0.5F)); }
-std::int32_t last_centre_to(float x) { return static_cast<std::int32_t>(std::floor(x - 0.5F)); }
+std::int32_t first_centre_from(float x) {
+  return static_cast<std::int32_t>(std::ceil(x - 0.5F));
+}
+std::int32_t last_centre_to(float x) {
+  return static_cast<std::int32_t>(std::floor(x - 0.5F));
+}
 
 float reach_of(std::span<const SurfacePiece> pieces) {
   float reach_m = 0.0F;
@@ -53,8 +57,7 @@ float free_reach_beside(const SurfacePiece& piece, const SurfacePiece& edge, flo
 ScanRaster::ScanRaster(GridGeometry geometry, RasterConfig config)
     : geometry_(geometry), config_(config) {}
 
-void ScanRaster::draw(std::span<const SurfacePiece> pieces, const Pose2& T_map_head,
-                      float weight) {
+void ScanRaster::draw(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, float weight) {
   clear();
   const double tile_m = geometry_.cell_size_m * kTileSide;
   const double reach_m = reach_of(pieces) + 2.0 * geometry_.truncation_m;
@@ -107,10 +110,9 @@ void ScanRaster::draw_piece(const SurfacePiece& piece, const Pose2& T_raster_hea
   const auto c = static_cast<float>(std::cos(T_raster_head.yaw_rad));
   const auto s = static_cast<float>(std::sin(T_raster_head.yaw_rad));
   SurfacePiece drawn = piece;  // in cells, in the raster's frame
-  drawn.point = {static_cast<float>(T_raster_head.x_m) +
-                     (c * piece.point.x() - s * piece.point.y()) / cell_m,
-                 static_cast<float>(T_raster_head.y_m) +
-                     (s * piece.point.x() + c * piece.point.y()) / cell_m};
+  drawn.point = {
+      static_cast<float>(T_raster_head.x_m) + (c * piece.point.x() - s * piece.point.y()) / cell_m,
+      static_cast<float>(T_raster_head.y_m) + (s * piece.point.x() + c * piece.point.y()) / cell_m};
   drawn.normal = {c * piece.normal.x() - s * piece.normal.y(),
                   s * piece.normal.x() + c * piece.normal.y()};
   drawn.left_m /= cell_m;
@@ -174,8 +176,8 @@ void ScanRaster::trace_outline(std::span<const SurfacePiece> pieces, const Pose2
     const std::size_t before = i == 0 ? n - 1 : i - 1;
     const bool is_near = pieces[i].point.squaredNorm() < pieces[before].point.squaredNorm();
     const std::size_t near = is_near ? i : before, far = is_near ? before : i;
-    reach_m_[far] = std::min(
-        reach_m_[far], free_reach_beside(pieces[far], pieces[near], truncation_m));
+    reach_m_[far] =
+        std::min(reach_m_[far], free_reach_beside(pieces[far], pieces[near], truncation_m));
   }
   const auto cell_m = static_cast<float>(geometry_.cell_size_m);
   const auto c = static_cast<float>(std::cos(T_raster_head.yaw_rad)) / cell_m;

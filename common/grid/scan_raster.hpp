@@ -16,14 +16,14 @@ namespace lifeline {
 
 /// How a scan becomes signed distances.
 struct RasterConfig {
-  float behind_m = 0.15F;        ///< surfaces are drawn this deep, losing weight with the square
-  float free_weight = 0.5F;      ///< of a cell that a beam passed far from any surface
+  float behind_m = 0.15F;    ///< surfaces are drawn this deep, losing weight with the square
+  float free_weight = 0.5F;  ///< of a cell that a beam passed far from any surface
 };
 
-/// The signed distances of one scan alone, tsdf_k and w_k of Eq. 2: each cell once, whatever the number
-/// of beams. Near a surface the distance is perpendicular to it, the nearest surface counts, and
-/// there are no holes between beams; before the surfaces all is free (+1); behind them, and where
-/// beams returned nothing, nothing is drawn. Keeps its memory from scan to scan.
+/// The signed distances of one scan alone, tsdf_k and w_k of Eq. 2: each cell once, whatever the
+/// number of beams. Near a surface the distance is perpendicular to it, the nearest surface counts,
+/// and there are no holes between beams; before the surfaces all is free (+1); behind them, and
+/// where beams returned nothing, nothing is drawn. Keeps its memory from scan to scan.
 class ScanRaster {
  public:
   /// 64 x 64 cells, drawn in the columns [first[row], last[row]) only.

@@ -203,7 +203,8 @@ class SurfaceExtractor {
                : SurfaceLink::jump;
   }
 
-  /// Whether `outer`, if it is a hit, lies in line with its neighbour `middle` and the next, `inner`.
+  /// Whether `outer`, if it is a hit, lies in line with its neighbour `middle` and the next,
+  /// `inner`.
   [[nodiscard]] bool in_line(const Beam2* outer, const Beam2& middle, const Beam2& inner) const {
     if (outer == nullptr || outer->kind != BeamKind::hit) return false;
     const Eigen::Vector2f a(middle.x_m - outer->x_m, middle.y_m - outer->y_m);
@@ -237,8 +238,7 @@ class SurfaceExtractor {
     const Eigen::Vector2d p = merge_sum_ / merged_;
     merged_ = 0;
     if (p.squaredNorm() < 1e-4) return;  // at the lidar itself: no direction
-    const double along_m =
-        run_.empty() ? 0.0 : run_.back().along_m + (p - run_.back().p).norm();
+    const double along_m = run_.empty() ? 0.0 : run_.back().along_m + (p - run_.back().p).norm();
     run_.push_back({p, along_m});
   }
 

@@ -28,19 +28,19 @@ struct SurfacePiece {
 };
 
 struct SurfaceConfig {
-  float merge_m = 0.025F;            ///< hits closer together than this become one piece
-  float fit_radius_m = 0.2F;         ///< neighbours on the surface that the normal is fitted to
-  float line_rms_m = 0.02F;          ///< a worse fit is a corner: one-sided fits are tried
-  float max_gap_m = 1.0F;            ///< neighbours further apart are one surface only if in line ...
-  float max_gap_in_line_m = 3.0F;    ///< ... and up to here
-  float max_spread_rad = 0.09F;      ///< beams further apart than this are no neighbours
-  double range_sigma_m = 0.03;       ///< of a reading ...
+  float merge_m = 0.025F;          ///< hits closer together than this become one piece
+  float fit_radius_m = 0.2F;       ///< neighbours on the surface that the normal is fitted to
+  float line_rms_m = 0.02F;        ///< a worse fit is a corner: one-sided fits are tried
+  float max_gap_m = 1.0F;          ///< neighbours further apart are one surface only if in line ...
+  float max_gap_in_line_m = 3.0F;  ///< ... and up to here
+  float max_spread_rad = 0.09F;    ///< beams further apart than this are no neighbours
+  double range_sigma_m = 0.03;     ///< of a reading ...
   double heading_sigma_rad = 0.005;  ///< ... and of the head's yaw: it moves far surfaces sideways
 };
 
-/// The surfaces a scan shows, in the order of its sweep. Neighbouring hits are one surface when their
-/// distance fits the beams' spacing at that range, or when they lie in line with a third: so a wall
-/// seen at a flat angle stays in one piece.
+/// The surfaces a scan shows, in the order of its sweep. Neighbouring hits are one surface when
+/// their distance fits the beams' spacing at that range, or when they lie in line with a third: so
+/// a wall seen at a flat angle stays in one piece.
 [[nodiscard]] std::vector<SurfacePiece> extract_surface(const Scan2& scan,
                                                         const SurfaceConfig& config = {});
 

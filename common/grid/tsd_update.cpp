@@ -15,8 +15,7 @@ TsdUpdater::TsdUpdater(GridGeometry geometry, PushConfig config)
 }
 
 std::span<const TileIndex> TsdUpdater::push(std::span<const SurfacePiece> pieces,
-                                            const Pose2& T_map_head, double weight,
-                                            TsdGrid& grid) {
+                                            const Pose2& T_map_head, double weight, TsdGrid& grid) {
   LIFELINE_CHECK(grid.geometry() == geometry_);
   LIFELINE_CHECK(T_map_head.is_finite() && weight > 0.0 && weight <= 1.0);
   changed_.clear();

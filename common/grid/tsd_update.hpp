@@ -23,12 +23,12 @@ struct PushConfig {
 /// has changed, and the old one loses weight with each such observation.
 inline constexpr int kContradiction = TsdCell::kTsdOne * 3 / 4;
 
-/// Eq. 2 and 3 for one cell: the running mean of `cell` and `seen`, both weighted, the weight capped at
-/// `weight_cap` (TsdCell units). An unknown `seen` changes nothing.
+/// Eq. 2 and 3 for one cell: the running mean of `cell` and `seen`, both weighted, the weight
+/// capped at `weight_cap` (TsdCell units). An unknown `seen` changes nothing.
 ///
 /// Beside the paper: a contradiction takes up to a quarter of the cell's weight away first, so that
-/// a door that moved is learnt in a few scans; and what lies deep behind a surface does not overrule
-/// a cell that was seen free from its own side - that is how thin walls survive.
+/// a door that moved is learnt in a few scans; and what lies deep behind a surface does not
+/// overrule a cell that was seen free from its own side - that is how thin walls survive.
 [[nodiscard]] inline TsdCell updated(TsdCell cell, TsdCell seen, int weight_cap) {
   if (!seen.known()) return cell;
   if (!cell.known()) return seen;
@@ -51,11 +51,11 @@ class TsdUpdater {
   TsdUpdater(GridGeometry geometry, PushConfig config);
 
   /// Updates `grid` (of the geometry given at construction) with a scan taken at `T_map_head`,
-  /// whose surfaces are `pieces`. `weight` in (0, 1] scales every w_k: how much this scan is trusted.
-  /// Cells beyond the largest tile index are left out. Returns the tiles in which any cell changed,
-  /// ordered by x, then y; valid until the next push.
-  std::span<const TileIndex> push(std::span<const SurfacePiece> pieces,
-                                  const Pose2& T_map_head, double weight, TsdGrid& grid);
+  /// whose surfaces are `pieces`. `weight` in (0, 1] scales every w_k: how much this scan is
+  /// trusted. Cells beyond the largest tile index are left out. Returns the tiles in which any cell
+  /// changed, ordered by x, then y; valid until the next push.
+  std::span<const TileIndex> push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head,
+                                  double weight, TsdGrid& grid);
 
  private:
   [[nodiscard]] bool merge(const ScanRaster::Tile& seen, TsdTile& tile) const;

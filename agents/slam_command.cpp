@@ -1,0 +1,146 @@
+#include "agents/slam_command.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include "agents/agent_settings.hpp"
+#include "agents/sensing/motion_tracker.hpp"
+#include "agents/sources/open_source.hpp"
+#include "common/base/log.hpp"
+#include "common/base/quantile.hpp"
+#include "common/files/atomic_file.hpp"
+#include "common/files/map_file.hpp"
+#include "common/files/occupancy_image.hpp"
+#include "common/files/tum.hpp"
+#include "common/grid/occupancy_grid.hpp"
+#include "common/grid/stamped_pose.hpp"
+#include "idl/config.pb.h"
+
+namespace lifeline {
+namespace {
+
+/// What the scans did, in their order.
+struct SlamRun {
+  std::vector<StampedPose> trajectory;
+  std::vector<StampedPose> truth;
+  std::vector<double> step_ms;
+  int weak = 0;
+  int rejected = 0;
+  int searches = 0;
+  int pushed = 0;
+};
+
+double peak_rss_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB
+}
+
+Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfig& projection,
+                     slam::TsdSlam& slam) {
+  SlamRun run;
+  sensing::MotionTracker motion;
+  for (;;) {
+    auto raw = source.next();
+    if (!raw) return forward_error(raw);
+    if (!*raw) return run;
+    const auto started = std::chrono::steady_clock::now();
+    const Scan2 scan = sensing::project_scan(**raw, projection);
+    const slam::SlamStep step = slam.step(scan, motion.next(**raw));
+    run.step_ms.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
+    run.trajectory.push_back({(*raw)->stamp, step.T_map_head});
+    if ((*raw)->T_world_head_truth) {
+      run.truth.push_back({(*raw)->stamp, *(*raw)->T_world_head_truth});
+    }
+    run.weak += step.verdict == slam::Verdict::weak ? 1 : 0;
+    run.rejected += step.verdict == slam::Verdict::rejected ? 1 : 0;
+    run.searches += step.source == slam::PoseSource::search ? 1 : 0;
+    run.pushed += step.pushed ? 1 : 0;
+  }
+}
+
+std::string to_json(const SlamRun& run, const std::string& matcher, const TsdGrid& layer) {
+  nlohmann::ordered_json json;
+  json["matcher"] = matcher;
+  json["scans"] = run.trajectory.size();
+  json["step_ms_median"] = quantile(run.step_ms, 0.5);
+  json["step_ms_p99"] = quantile(run.step_ms, 0.99);
+  json["peak_rss_mb"] = peak_rss_mb();
+  json["failures"] = run.rejected;
+  json["weak"] = run.weak;
+  json["rejected"] = run.rejected;
+  json["searches"] = run.searches;
+  json["pushed"] = run.pushed;
+  json["explored_m2"] = known_area_m2(layer);
+  return json.dump(1) + "\n";
+}
+
+/// NAME.truth.tum beside NAME.tum.
+std::filesystem::path truth_beside(std::filesystem::path trajectory) {
+  if (trajectory.extension() == ".tum") trajectory.replace_extension();
+  return trajectory += ".truth.tum";
+}
+
+Result<void> save_layer(const std::filesystem::path& name, Floor floor, const TsdGrid& layer,
+                        const SlamRun& run) {
+  const auto id = AgentId::parse("offline");
+  if (!id) return forward_error(id);
+  std::filesystem::path file = name;
+  file += ".lifemap";
+  if (auto saved = files::save_map(file, {*id, MapId{1}, floor}, layer, run.trajectory); !saved) {
+    return saved;
+  }
+  return files::write_occupancy_image(name, to_occupancy(layer));
+}
+
+Result<void> write_all(const SlamCommandOptions& options, const proto::AgentConfig& config,
+                       const TsdGrid& layer, const SlamRun& run) {
+  if (options.trajectory) {
+    if (auto written = files::write_tum(*options.trajectory, run.trajectory); !written) {
+      return written;
+    }
+    if (!run.truth.empty()) {
+      auto written = files::write_tum(truth_beside(*options.trajectory), run.truth);
+      if (!written) return written;
+    }
+  }
+  if (options.map) {
+    const Floor floor{static_cast<std::int16_t>(config.floor())};
+    if (auto saved = save_layer(*options.map, floor, layer, run); !saved) return saved;
+  }
+  if (!options.stats) return {};
+  return files::write_file_atomically(*options.stats, to_json(run, config.slam().matcher(), layer));
+}
+
+Result<void> run_slam(const SlamCommandOptions& options) {
+  const auto config = read_agent_config(options.config, options.matcher);
+  if (!config) return forward_error(config);
+  set_up_log("slam", config->mission().log_level());
+  const AgentSettings settings = to_settings(*config);
+  const auto source = sources::open_source(options.source);
+  if (!source) return forward_error(source);
+  slam::TsdSlam slam(settings.slam, settings.geometry);
+  const auto run = play(**source, settings.projection, slam);
+  if (!run) return forward_error(run);
+  if (auto written = write_all(options, *config, slam.layer(), *run); !written) return written;
+  fmt::print("{} scans, {} weak, {} failed; {:.2f} ms a scan (p99 {:.2f}); {:.0f} m2 explored\n",
+             run->trajectory.size(), run->weak, run->rejected, quantile(run->step_ms, 0.5),
+             quantile(run->step_ms, 0.99), known_area_m2(slam.layer()));
+  return {};
+}
+
+}  // namespace
+
+int run_slam_command(const SlamCommandOptions& options) {
+  const auto done = run_slam(options);
+  if (done) return 0;
+  fmt::print(stderr, "lifeline-agent: {}\n", done.error().text);
+  return done.error().code == ErrorCode::wrong_use ? 2 : 1;
+}
+
+}  // namespace lifeline
