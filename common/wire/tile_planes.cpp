@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kOne = QuantisedCell::kTsdOne;
 constexpr int kTsdModulus = 2 * kOne + 1;
-constexpr int kWeightModulus = QuantisedCell::kMaxWeight + 1;
-static_assert(kWeightModulus == 16, "two weights to an octet");
+constexpr unsigned kWeightModulus = QuantisedCell::kMaxWeight + 1;
+static_assert(16 % kWeightModulus == 0, "two weights to an octet, and unsigned numbers wrap");
 
 /// The cells that are known before (x, y) when going row by row from below.
 struct Neighbours {
@@ -73,7 +73,8 @@ TilePlanes to_planes(const QuantisedTile& tile) {
     const QuantisedCell cell = tile[i];
     LIFELINE_CHECK(is_valid(cell));
     const Neighbours neighbours = neighbours_of(tile, i);
-    const auto weight = static_cast<unsigned>(cell.weight - predict_weight(neighbours)) % 16U;
+    const auto weight =
+        static_cast<unsigned>(cell.weight - predict_weight(neighbours)) % kWeightModulus;
     planes.weights[i / 2] |= static_cast<std::uint8_t>(weight << (i % 2 * 4));
     if (cell.weight == 0) continue;
     if (cell.tsd == kOne) {
@@ -99,7 +100,7 @@ Result<QuantisedTile> from_planes(std::span<const std::uint8_t> weights,
     const Neighbours neighbours = neighbours_of(tile, i);
     const unsigned change = weights[i / 2] >> (i % 2 * 4);
     tile[i].weight = static_cast<std::uint8_t>(
-        (change + static_cast<unsigned>(predict_weight(neighbours))) % 16U);
+        (change + static_cast<unsigned>(predict_weight(neighbours))) % kWeightModulus);
     const bool is_free = (free[i / 8] >> (i % 8) & 1U) != 0;
     if (tile[i].weight == 0) {
       if (is_free) return fail(ErrorCode::bad_data, "tile refused: cell {} is free but unknown", i);

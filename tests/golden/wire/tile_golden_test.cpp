@@ -22,6 +22,7 @@ namespace {
 
 using Octets = std::vector<std::uint8_t>;
 
+constexpr int kOne = QuantisedCell::kTsdOne, kMost = QuantisedCell::kMaxWeight;
 const GridGeometry kGeometry{.cell_size_m = 0.05, .truncation_m = 0.15};
 
 /// A corner of two walls seen from inside, in integers: the same on every machine.
@@ -34,8 +35,8 @@ QuantisedTile corner_tile() {
       const int wobble = (x * 7 + y * 13) % 5;
       auto& cell = tile[offset_in_tile({x, y})];
       cell.tsd = static_cast<std::int8_t>(
-          to_wall > 3 ? 127 : std::clamp(to_wall * 42 + wobble, -127, 127));
-      cell.weight = static_cast<std::uint8_t>(std::clamp(15 - (x + y) / 8, 1, 15));
+          to_wall > 3 ? kOne : std::clamp(to_wall * kOne / 3 + wobble, -kOne, kOne));
+      cell.weight = static_cast<std::uint8_t>(std::clamp(kMost - (x + y) / 8, 1, kMost));
     }
   }
   return tile;
@@ -47,8 +48,8 @@ QuantisedTile noise_tile() {
   std::mt19937 random(2024);
   QuantisedTile tile{};
   for (auto& cell : tile) {
-    const auto weight = static_cast<std::uint8_t>(random() % 16U);
-    const auto tsd = static_cast<std::int8_t>(static_cast<int>(random() % 255U) - 127);
+    const auto weight = static_cast<std::uint8_t>(random() % (kMost + 1U));
+    const auto tsd = static_cast<std::int8_t>(static_cast<int>(random() % (2U * kOne + 1U)) - kOne);
     if (weight > 0) cell = {tsd, weight};
   }
   return tile;

@@ -17,6 +17,7 @@ namespace {
 
 using Octets = std::vector<std::uint8_t>;
 
+constexpr int kOne = QuantisedCell::kTsdOne;
 const GridGeometry kGeometry{.cell_size_m = 0.05, .truncation_m = 0.15};
 
 bool is_valid(const QuantisedTile& tile) {
@@ -73,7 +74,7 @@ TEST(TileCodecProperty, WallsInAnyDirectionSurvive) {
 TEST(TileCodecProperty, TheFewestAndTheExtremeCellsSurvive) {
   for (const std::size_t i :
        {std::size_t{0}, std::size_t{63}, std::size_t{64}, std::size_t{4095}}) {
-    for (const int tsd : {-127, -1, 0, 1, 126, 127}) {
+    for (const int tsd : {-kOne, -1, 0, 1, kOne - 1, kOne}) {
       QuantisedTile tile{};
       tile[i] = {static_cast<std::int8_t>(tsd), QuantisedCell::kMaxWeight};
       ASSERT_EQ(decode_tile(encode_tile(tile, kGeometry), kGeometry).value(), tile);
@@ -81,7 +82,8 @@ TEST(TileCodecProperty, TheFewestAndTheExtremeCellsSurvive) {
   }
   QuantisedTile board{};
   for (std::size_t i = 0; i < board.size(); ++i) {
-    board[i] = {static_cast<std::int8_t>((i + i / 64) % 2 == 0 ? -127 : 127), 15};
+    board[i] = {static_cast<std::int8_t>((i + i / 64) % 2 == 0 ? -kOne : kOne),
+                QuantisedCell::kMaxWeight};
   }
   ASSERT_EQ(decode_tile(encode_tile(board, kGeometry), kGeometry).value(), board);
 }
