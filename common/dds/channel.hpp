@@ -5,6 +5,7 @@
 #include "common/base/result.hpp"
 #include "common/dds/participant.hpp"
 #include "common/wire/channel.hpp"
+#include "common/wire/messages.hpp"
 
 namespace lifeline::dds {
 

@@ -1,6 +1,7 @@
 // lifeline-dds-probe: one participant as a process of its own, for the tests of this folder.
 // Writes one JSON object a line to stdout.
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -37,6 +38,7 @@ struct Options {
   std::uint64_t epoch = 0;
   bool standby = false;
   std::uint32_t peers = 0;
+  bool repeat = false;
   double seconds = 20.0;
 };
 
@@ -92,7 +94,10 @@ void publish(const Options& options, dds::Participant& participant) {
          {"bytes_sent", participant.bytes_sent()},
          {"rss_kb", resident_kb()}});
   const Deadline deadline(options.seconds);
-  while (deadline.open()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  while (deadline.open()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (options.repeat) need(directives->put(probe::directive(options.id, options.epoch)));
+  }
 }
 
 Json describe(const wire::TsdTile& tile) {
@@ -101,7 +106,8 @@ Json describe(const wire::TsdTile& tile) {
           {"revision", tile.revision}, {"intact", tile.payload == probe::payload(tile)}};
 }
 
-/// Prints what arrives until the expected tiles (and, if asked for, the directive) are there.
+/// Prints what arrives. Says when the expected tiles (and, if asked for, the directive) are there,
+/// and listens half a second longer for what should not come.
 void collect(const Options& options, dds::Participant& participant) {
   const auto start = steady_clock::now();
   const auto tiles = need(dds::make_inbox<wire::TsdTile>(participant));
@@ -110,7 +116,8 @@ void collect(const Options& options, dds::Participant& participant) {
   std::uint64_t samples = 0, epoch = 0;
   double first_ms = 0.0, last_ms = 0.0;
   const Deadline deadline(options.seconds);
-  while (deadline.open() && (keys.size() < options.tiles || epoch < options.epoch)) {
+  auto done_at = steady_clock::time_point::max();
+  while (deadline.open() && steady_clock::now() < done_at) {
     participant.wait_for_data(std::chrono::milliseconds(100));
     for (const auto& tile : tiles->take()) {
       if (samples++ == 0) first_ms = ms_since(start);
@@ -119,10 +126,14 @@ void collect(const Options& options, dds::Participant& participant) {
       if (options.tiles <= 1000) print(describe(tile));
     }
     for (const auto& directive : directives->take()) {
-      epoch = directive.epoch;
+      epoch = std::max(epoch, directive.epoch);
       print({{"topic", "merge_directive"},
              {"sender", directive.envelope.sender_id},
              {"epoch", directive.epoch}});
+    }
+    const bool complete = keys.size() >= options.tiles && epoch >= options.epoch;
+    if (complete && done_at == steady_clock::time_point::max()) {
+      done_at = steady_clock::now() + std::chrono::milliseconds(500);
     }
   }
   print({{"event", "summary"},
@@ -160,7 +171,7 @@ void meet(const Options& options, dds::Participant& participant) {
              {"rss_kb", resident_kb()}});
     }
   }
-  print({{"event", "summary"}, {"peers", heard.size()}});
+  print({{"event", "summary"}, {"peers", heard.size()}, {"refused", in->refused()}});
 }
 
 }  // namespace
@@ -177,6 +188,7 @@ int main(int argc, char** argv) {
   app.add_option("--size", options.size, "payload of a tile in octets");
   app.add_option("--epoch", options.epoch, "of the directive to write or wait for; 0: none");
   app.add_flag("--standby", options.standby, "write the directive as the standby coordinator");
+  app.add_flag("--repeat", options.repeat, "write the directive again, 20 times a second");
   app.add_option("--peers", options.peers, "how many to meet");
   app.add_option("--seconds", options.seconds, "how long to stay at most");
   auto* const publishing = app.add_subcommand("publish")->fallthrough();

@@ -11,8 +11,7 @@
 
 namespace lifeline::probe {
 
-/// A payload that depends on all that names the tile; its first two octets are its size / 256 and
-/// its size % 256.
+/// A payload that depends on all that names the tile.
 inline std::vector<std::uint8_t> payload(std::uint32_t tile, std::uint64_t revision,
                                          std::size_t size) {
   std::vector<std::uint8_t> octets(size);
