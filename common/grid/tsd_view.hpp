@@ -89,7 +89,8 @@ class TsdView {
     const float v00 = c00.value(), v10 = c10.value(), v01 = c01.value(), v11 = c11.value();
     const float low = v00 + a * (v10 - v00), high = v01 + a * (v11 - v01);
     into.value = low + b * (high - low);
-    into.weight = static_cast<float>(std::min(std::min(c00.weight, c10.weight), std::min(c01.weight, c11.weight))) *
+    into.weight = static_cast<float>(std::min(std::min(c00.weight, c10.weight),
+                                              std::min(c01.weight, c11.weight))) *
                   (1.0F / TsdCell::kWeightOne);
     into.gradient = {(v10 - v00) + b * ((v11 - v01) - (v10 - v00)), high - low};
     return true;
