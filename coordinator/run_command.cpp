@@ -10,10 +10,10 @@
 #include "common/dds/open_channel.hpp"
 #include "common/files/load_config.hpp"
 #include "common/files/report_folder.hpp"
-#include "idl/config.pb.h"
 #include "coordinator/coordinator_settings.hpp"
 #include "coordinator/progress.hpp"
 #include "coordinator/report.hpp"
+#include "idl/config.pb.h"
 
 namespace lifeline {
 namespace {
