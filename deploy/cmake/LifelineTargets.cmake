@@ -74,9 +74,11 @@ function(lifeline_test name)
     endif()
     add_dependencies(lifeline_thread_tests ${name})
   endif()
+  # Joined, since gtest_discover_tests takes lists apart; `ctest -L` looks for parts of a label.
+  list(JOIN arg_LABELS "-" labels)
   include(GoogleTest)
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}")
+    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${labels}")
 endfunction()
 
 # lifeline_fuzzer(NAME_fuzz SOURCES a.cpp ... LINK libs...): a libFuzzer program in build/fuzz/bin; nothing in other presets.
