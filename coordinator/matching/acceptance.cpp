@@ -17,6 +17,13 @@ struct Judgement {
   std::string reason;
 };
 
+/// Wrong places in regular buildings share tens of metres of wall, but more of it contradicts than
+/// drift and clutter explain in young maps: the less wall speaks, the less of it may contradict.
+double allowed_conflict(double agreeing_wall_m) {
+  const double share = std::min(1.0, agreeing_wall_m / kLimits.much_wall_m);
+  return kLimits.min_conflict + share * (kLimits.max_conflict - kLimits.min_conflict);
+}
+
 std::string place(const Pose2& T) {
   return fmt::format("({:.1f} m, {:.1f} m, {:.0f} deg)", T.x_m, T.y_m,
                      T.yaw_rad * 180.0 / std::numbers::pi);
@@ -66,6 +73,11 @@ Judgement judge_oriented(const MatchResult& result, const MatchConfig& config) {
         fmt::format("{:.0f} % of the wall at the best place stands in space that the other map saw "
                     "free, at most {:.0f} % may",
                     100 * best.conflict, 100 * kLimits.max_conflict)};
+  }
+  if (const double allowed = allowed_conflict(best.agreeing_wall_m); best.conflict > allowed) {
+    return {Verdict::wait, fmt::format("{:.1f} % of the wall contradicts, too much for {:.1f} m "
+                                       "that agree: at most {:.1f} % may",
+                                       100 * best.conflict, best.agreeing_wall_m, 100 * allowed)};
   }
   if (result.margin < kLimits.min_margin) {
     return {

@@ -9,7 +9,9 @@ namespace lifeline::matching {
 /// told in docs/matching.md.
 struct AcceptanceLimits {
   double min_agreeing_wall_m = 4.0;  ///< less could be chance
-  double max_conflict = 0.12;        ///< of the wall that speaks for or against
+  double max_conflict = 0.12;        ///< of the wall that speaks for or against, where much speaks
+  double min_conflict = 0.03;        ///< the same where next to nothing speaks; linear in between
+  double much_wall_m = 60.0;         ///< agreeing wall from which on max_conflict counts
   double min_margin = 0.35;          ///< by which the best leads the second hypothesis
   double min_constraint_m = 0.8;     ///< else the maps could slide along each other
 };

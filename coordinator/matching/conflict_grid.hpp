@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -19,14 +20,22 @@ class ConflictGrid {
 
   /// Conflicting wall in metres, the mean of both sides, when b is turned and then shifted by `t`.
   [[nodiscard]] float conflict_m(const Eigen::Vector2f& t) const {
-    const auto x = static_cast<int>(std::lround((t.x() - first_.x()) * inverse_square_m_));
-    const auto y = static_cast<int>(std::lround((t.y() - first_.y()) * inverse_square_m_));
-    if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return 0.0F;
+    return conflict_m(column_of(t.x()), row_of(t.y()));
+  }
+  /// The same in two steps, for whole rows of translations.
+  [[nodiscard]] int column_of(float t_x) const { return nearest(t_x - first_.x()); }
+  [[nodiscard]] int row_of(float t_y) const { return nearest(t_y - first_.y()); }
+  [[nodiscard]] float conflict_m(int column, int row) const {
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return 0.0F;
     return metres_per_count_ *
-           static_cast<float>(counts_[static_cast<std::size_t>(y * columns_ + x)]);
+           static_cast<float>(counts_[static_cast<std::size_t>(row * columns_ + column)]);
   }
 
  private:
+  [[nodiscard]] int nearest(float distance_m) const {
+    return static_cast<int>(std::lround(distance_m * inverse_square_m_));
+  }
+
   float inverse_square_m_ = 0.0F;
   int columns_ = 0;
   int rows_ = 0;

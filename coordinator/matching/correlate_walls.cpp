@@ -150,6 +150,19 @@ void vote_all(const Facings& a, const Facings& b, TranslationGrid& grid) {
   grid.values = blur(grid);
 }
 
+void subtract(const ConflictGrid& conflicts, float weight, TranslationGrid& grid) {
+  const auto width = static_cast<std::size_t>(grid.columns);
+  std::vector<int> columns(width);
+  for (std::size_t i = 0; i < width; ++i) columns[i] = conflicts.column_of(grid.translation(i).x());
+  for (std::size_t first = 0; first < grid.values.size(); first += width) {
+    const int row = conflicts.row_of(grid.translation(first).y());
+    for (std::size_t i = 0; i < width; ++i) {
+      float& value = grid.values[first + i];
+      if (value > 0) value -= weight * conflicts.conflict_m(columns[i], row);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<CorrelationPeak> correlate_walls(const MapFeatures& a, const MapFeatures& b,
@@ -161,11 +174,7 @@ std::vector<CorrelationPeak> correlate_walls(const MapFeatures& a, const MapFeat
   TranslationGrid grid = make_grid(box_a, box_b);
   vote_all(sort_by_facing(a.skeleton, still, box_a.min(), grid.square_m),
            sort_by_facing(b.skeleton, turn, box_b.min(), grid.square_m), grid);
-  const ConflictGrid conflicts(a, b, turn);
-  for (std::size_t i = 0; i < grid.values.size(); ++i) {
-    if (grid.values[i] <= 0) continue;
-    grid.values[i] -= conflict_weight * conflicts.conflict_m(grid.translation(i));
-  }
+  subtract(ConflictGrid(a, b, turn), conflict_weight, grid);
   std::vector<CorrelationPeak> peaks;
   for (const Maximum& maximum : highest_maxima(grid.values, grid.columns, count)) {
     const Eigen::Vector2f t = grid.translation(maximum.index);

@@ -12,8 +12,6 @@ namespace lifeline::matching {
 namespace {
 
 constexpr std::size_t kMaxWallPoints = 400'000;
-/// So that walls at the edge of what is known have neighbours.
-constexpr int kMargin = 8;
 
 Result<void> check_extent(std::int64_t columns, std::int64_t rows) {
   if (columns <= kMaxCellsPerSide && rows <= kMaxCellsPerSide && columns * rows <= kMaxCells)
@@ -77,7 +75,7 @@ Result<MapFeatures> complete(const OccupancyGrid& cropped, const std::vector<Wal
 
 Result<MapFeatures> build_features(const OccupancyGrid& grid) {
   if (const auto checked = check_size(grid); !checked) return forward_error(checked);
-  const OccupancyGrid cropped = crop_to_known(grid, kMargin);
+  const OccupancyGrid cropped = crop_to_known(grid, kWallMargin);
   return complete(cropped, wall_points(cropped));
 }
 
@@ -85,7 +83,7 @@ Result<MapFeatures> build_features(const TsdGrid& tsd) {
   if (const auto checked = check_extent(tsd); !checked) return forward_error(checked);
   const OccupancyGrid grid = to_occupancy(tsd);
   if (const auto checked = check_size(grid); !checked) return forward_error(checked);
-  const OccupancyGrid cropped = crop_to_known(grid, kMargin);
+  const OccupancyGrid cropped = crop_to_known(grid, kWallMargin);
   return complete(cropped, wall_points(tsd, cropped.origin_m));
 }
 

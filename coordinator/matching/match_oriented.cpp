@@ -14,10 +14,11 @@ namespace lifeline::matching {
 namespace {
 
 // Each stage keeps fewer hypotheses and looks at them more closely.
-constexpr std::size_t kPeaksPerRotation = 64;
-constexpr std::size_t kKeptPerRotation = 24;
-constexpr std::size_t kRefinedFully = 16;
-constexpr std::size_t kReported = 6;
+constexpr std::size_t kPeaksPerRotation = 24;
+constexpr std::size_t kPeaks = 128;
+constexpr std::size_t kRefinedCoarsely = 64;
+constexpr std::size_t kRefinedFully = 12;
+constexpr std::size_t kReported = 4;
 constexpr std::size_t kRotationSeparation = 4 * kSpectrumBinsPerDegree;
 /// In the correlation positions are rough, and so are conflicts: they count less than at the end.
 constexpr float kSearchConflictWeight = 1.5F;
@@ -48,26 +49,21 @@ Eigen::Vector2d middle_of(const std::vector<WallPoint>& walls) {
   return walls.empty() ? sum : Eigen::Vector2d(sum / static_cast<double>(walls.size()));
 }
 
-/// The correlation's peaks at one rotation, as far as they are worth refining.
-std::vector<Hypothesis> search_rotation(const MapFeatures& a, const MapFeatures& b,
-                                        double yaw_rad) {
-  std::vector<Hypothesis> found;
-  for (const CorrelationPeak& peak :
-       correlate_walls(a, b, yaw_rad, kSearchConflictWeight, kPeaksPerRotation)) {
-    found.push_back({peak.T_a_b, coarse_score(a, b, peak.T_a_b, kSearchGate)});
-  }
-  keep_best(found, kKeptPerRotation);
-  return found;
-}
-
+/// The highest peaks of the correlation, over all rotations that the spectra propose.
 std::vector<Hypothesis> search(const MapFeatures& a, const MapFeatures& b, std::size_t rotations) {
   const Spectrum correlation = circular_correlation(a.oriented, b.oriented);
   std::vector<Hypothesis> hypotheses;
   for (const SpectrumPeak& peak : circular_maxima(correlation, kRotationSeparation, rotations)) {
     const double yaw_rad =
         peak.bin / static_cast<double>(correlation.size()) * 2 * std::numbers::pi;
-    for (const Hypothesis& h : search_rotation(a, b, yaw_rad)) hypotheses.push_back(h);
+    for (const CorrelationPeak& found :
+         correlate_walls(a, b, yaw_rad, kSearchConflictWeight, kPeaksPerRotation)) {
+      hypotheses.push_back({found.T_a_b, static_cast<double>(found.value)});
+    }
   }
+  keep_best(hypotheses, kPeaks);
+  for (Hypothesis& h : hypotheses) h.score = coarse_score(a, b, h.T_a_b, kSearchGate);
+  keep_best(hypotheses, kRefinedCoarsely);
   return hypotheses;
 }
 

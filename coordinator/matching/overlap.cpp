@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "coordinator/matching/known_cells.hpp"
+
 namespace lifeline::matching {
 
 double Overlap::s_overlapping(double grid_cells) const {
@@ -23,15 +25,14 @@ Overlap count_overlap(const OccupancyGrid& a, const OccupancyGrid& b, const Pose
     const auto x0 = static_cast<float>(T_a_b.x_m / a.cell_size_m) - s * static_cast<float>(y);
     const auto y0 = static_cast<float>(T_a_b.y_m / a.cell_size_m) + c * static_cast<float>(y);
     const Occupancy* const cells = b.cells.data() + b.index(0, row);
-    for (int column = 0; column < b.columns; ++column) {
-      if (cells[column] == Occupancy::unknown) continue;
+    for_known_cells(cells, b.columns, [&](int column) {
       const float along = static_cast<float>(column) + 0.5F;
       const float ax = x0 + c * along, ay = y0 + s * along;
-      if (!(ax >= 0 && ay >= 0 && ax < columns && ay < rows)) continue;
+      if (!(ax >= 0 && ay >= 0 && ax < columns && ay < rows)) return;
       const Occupancy other = a.cells[a.index(static_cast<int>(ax), static_cast<int>(ay))];
-      if (other == Occupancy::unknown) continue;
+      if (other == Occupancy::unknown) return;
       ++(other == cells[column] ? overlap.agreeing : overlap.disagreeing);
-    }
+    });
   }
   return overlap;
 }

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
 
 namespace lifeline::matching {
 namespace {
@@ -13,11 +17,51 @@ std::size_t as_index(Occupancy cell) {
   return static_cast<std::size_t>(cell);
 }
 
-/// Calls `visit(index)` for all cells that have all eight neighbours.
+std::array<std::ptrdiff_t, 4> four_around(const OccupancyGrid& grid) {
+  const auto width = static_cast<std::ptrdiff_t>(grid.columns);
+  return {-width, -1, 1, width};
+}
+
+/// Calls `visit(cell)` for each cell whose byte in `flags` (one row) is 1. memchr is far faster
+/// than a loop, and few are.
 template <typename Visit>
-void for_inner_cells(const OccupancyGrid& grid, Visit visit) {
+void for_flagged(std::span<const std::uint8_t> flags, Visit visit) {
+  const std::uint8_t* at = flags.data();
+  const std::uint8_t* const end = at + flags.size();
+  while ((at = static_cast<const std::uint8_t*>(
+              std::memchr(at, 1, static_cast<std::size_t>(end - at)))) != nullptr) {
+    visit(at - flags.data());
+    if (++at == end) return;
+  }
+}
+
+/// Calls `visit(index)` for the cells that are of class `wanted` and have all eight neighbours.
+template <typename Visit>
+void for_inner_cells_of(const OccupancyGrid& grid, Occupancy wanted, Visit visit) {
+  if (grid.columns < 3) return;
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(grid.columns) - 2);
   for (int row = 1; row + 1 < grid.rows; ++row) {
-    for (int column = 1; column + 1 < grid.columns; ++column) visit(grid.index(column, row));
+    const std::size_t first = grid.index(1, row);
+    for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = grid.cells[first + i] == wanted;
+    for_flagged(flags, [&](std::ptrdiff_t i) { visit(first + static_cast<std::size_t>(i)); });
+  }
+}
+
+/// Calls `visit(index)` for the inner cells that differ from a neighbour in x or y: few do.
+template <typename Visit>
+void for_mixed_cells(const OccupancyGrid& grid, Visit visit) {
+  if (grid.columns < 3) return;
+  const auto width = static_cast<std::size_t>(grid.columns);
+  std::vector<std::uint8_t> flags(width - 2);
+  for (int row = 1; row + 1 < grid.rows; ++row) {
+    const std::size_t first = grid.index(1, row);
+    const Occupancy* const cell = grid.cells.data() + first;
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+      flags[i] =
+          static_cast<std::uint8_t>((cell[i] != (cell + i)[-1]) | (cell[i] != cell[i + 1]) |
+                                    (cell[i] != (cell - width)[i]) | (cell[i] != cell[i + width]));
+    }
+    for_flagged(flags, [&](std::ptrdiff_t i) { visit(first + static_cast<std::size_t>(i)); });
   }
 }
 
@@ -33,11 +77,10 @@ OccupancyGrid vote(const OccupancyGrid& grid) {
   const auto width = static_cast<std::ptrdiff_t>(grid.columns);
   const std::array<std::ptrdiff_t, 8> around{-width - 1, -width,    -width + 1, -1,
                                              1,          width - 1, width,      width + 1};
-  for_inner_cells(grid, [&](std::size_t at) {
+  // A cell whose four nearest are like it has no majority against it.
+  for_mixed_cells(grid, [&](std::size_t at) {
     const Occupancy own = grid.cells[at];
     const Occupancy* cell = &grid.cells[at];
-    // Almost all cells lie among their like.
-    if (cell[-1] == own && cell[1] == own && cell[-width] == own && cell[width] == own) return;
     std::array<int, kClasses> votes{};
     for (const std::ptrdiff_t step : around) ++votes[as_index(cell[step])];
     const auto most = std::max_element(votes.begin(), votes.end());
@@ -50,10 +93,8 @@ OccupancyGrid vote(const OccupancyGrid& grid) {
 
 OccupancyGrid augment(const OccupancyGrid& grid) {
   OccupancyGrid augmented = grid;
-  const auto width = static_cast<std::ptrdiff_t>(grid.columns);
-  const std::array<std::ptrdiff_t, 4> around{-width, -1, 1, width};
-  for_inner_cells(grid, [&](std::size_t at) {
-    if (grid.cells[at] != Occupancy::occupied) return;
+  const auto around = four_around(grid);
+  for_inner_cells_of(grid, Occupancy::occupied, [&](std::size_t at) {
     Occupancy* cell = &augmented.cells[at];
     for (const std::ptrdiff_t step : around) {
       if (cell[step] == Occupancy::free) cell[step] = Occupancy::occupied;
@@ -103,9 +144,8 @@ OccupancyGrid filter_noise(const OccupancyGrid& grid) {
 
 OccupancyGrid close_borders(const OccupancyGrid& grid) {
   OccupancyGrid closed = grid;
-  const auto width = static_cast<std::ptrdiff_t>(grid.columns);
-  const std::array<std::ptrdiff_t, 4> around{-width, -1, 1, width};
-  for_inner_cells(grid, [&](std::size_t at) {
+  const auto around = four_around(grid);
+  for_mixed_cells(grid, [&](std::size_t at) {
     const Occupancy* cell = &grid.cells[at];
     if (*cell != Occupancy::free) return;
     const bool at_border = std::any_of(around.begin(), around.end(), [&](std::ptrdiff_t step) {

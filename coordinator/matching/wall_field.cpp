@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "coordinator/matching/known_cells.hpp"
+
 namespace lifeline::matching {
 namespace {
 
@@ -107,46 +109,52 @@ bool WallField::coarse_clear(const Eigen::Vector2f& p) const {
 
 namespace {
 
-enum class Square : std::uint8_t { unknown, free, wall };
+using Mask = std::vector<std::uint8_t>;  // per square, 0 or 1
 
-/// Each square of two by two cells: wall where a cell is, else free where a cell is.
-std::vector<Square> squares_of(const OccupancyGrid& grid, int columns, int rows) {
-  std::vector<Square> squares(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
-                              Square::unknown);
-  for (int y = 0; y < grid.rows; ++y) {
-    const Occupancy* const cells = grid.cells.data() + grid.index(0, y);
-    for (int x = 0; x < grid.columns; ++x) {
-      if (cells[x] == Occupancy::unknown) continue;
-      Square& square = squares[static_cast<std::size_t>((y / 2) * columns + x / 2)];
-      square = std::max(square, cells[x] == Occupancy::occupied ? Square::wall : Square::free);
+/// Sets each square that has a set one within `reach` squares in x and in y. Rows run into each
+/// other: the border squares must not matter.
+Mask spread(const Mask& mask, int columns, int rows, int reach) {
+  Mask across = mask;
+  const auto width = static_cast<std::ptrdiff_t>(columns), size = width * rows;
+  for (int step = 1; step <= reach; ++step) {
+    for (std::ptrdiff_t i = step; i + step < size; ++i) {
+      across[static_cast<std::size_t>(i)] |= static_cast<std::uint8_t>(
+          mask[static_cast<std::size_t>(i - step)] | mask[static_cast<std::size_t>(i + step)]);
     }
   }
-  return squares;
+  Mask out = across;
+  for (int step = 1; step <= reach; ++step) {
+    const std::ptrdiff_t by = step * width;
+    for (std::ptrdiff_t i = by; i + by < size; ++i) {
+      out[static_cast<std::size_t>(i)] |= static_cast<std::uint8_t>(
+          across[static_cast<std::size_t>(i - by)] | across[static_cast<std::size_t>(i + by)]);
+    }
+  }
+  return out;
 }
 
 }  // namespace
 
 void WallField::classify(const OccupancyGrid& grid) {
-  const std::vector<Square> own = squares_of(grid, columns_, rows_);
-  // All eight neighbours free, and no wall among the next sixteen.
-  const auto is_clear = [&](int x, int y) {
-    if (x < 2 || y < 2 || x + 2 >= columns_ || y + 2 >= rows_) return false;
-    for (int dy = -2; dy <= 2; ++dy) {
-      for (int dx = -2; dx <= 2; ++dx) {
-        const Square other = own[static_cast<std::size_t>((y + dy) * columns_ + x + dx)];
-        const bool beside = std::abs(dx) <= 1 && std::abs(dy) <= 1;
-        if (other == Square::wall || (beside && other == Square::unknown)) return false;
-      }
-    }
-    return true;
-  };
-  places_.assign(own.size(), Place::unknown);
-  for (int y = 0; y < rows_; ++y) {
-    for (int x = 0; x < columns_; ++x) {
-      const auto at = static_cast<std::size_t>(y * columns_ + x);
-      if (own[at] == Square::unknown) continue;
-      places_[at] = own[at] == Square::free && is_clear(x, y) ? Place::clear : Place::known;
-    }
+  const auto squares = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  Mask wall(squares, 0), unknown(squares, 1);
+  for (int y = 0; y < grid.rows; ++y) {
+    const Occupancy* const cells = grid.cells.data() + grid.index(0, y);
+    const std::size_t row = static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(columns_);
+    for_known_cells(cells, grid.columns, [&](int x) {
+      const std::size_t square = row + static_cast<std::size_t>(x / 2);
+      unknown[square] = 0;
+      if (cells[x] == Occupancy::occupied) wall[square] = 1;
+    });
+  }
+  // Clear: itself and its eight neighbours free, and no wall among the next sixteen. The grid has
+  // a border of unknown cells, so nothing is clear there.
+  const Mask near_wall = spread(wall, columns_, rows_, 2);
+  const Mask near_unknown = spread(unknown, columns_, rows_, 1);
+  places_.assign(squares, Place::unknown);
+  for (std::size_t i = 0; i < squares; ++i) {
+    if (unknown[i] != 0) continue;
+    places_[i] = near_wall[i] == 0 && near_unknown[i] == 0 ? Place::clear : Place::known;
   }
   coarsen();
 }

@@ -16,6 +16,10 @@ struct WallPoint {
   float length_m = 0.0F;   ///< length of wall that this point stands for
 };
 
+/// Occupied cells nearer than this to the border of a grid are not looked at, so that all have
+/// neighbours: crop_to_known() gives maps such a border.
+inline constexpr int kWallMargin = 8;
+
 /// The faces of the occupied cells of `grid`. A wall that was seen from both sides gives points on
 /// both faces. Positions and normals come from a line fitted to the neighbouring face cells, so
 /// they are finer than a cell. Local frame: the grid's origin is the origin.
