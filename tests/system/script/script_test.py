@@ -1,5 +1,6 @@
 """Runs ./lifeline as a user does, as far as it neither installs nor builds: script_test.py CHECKOUT"""
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -43,6 +44,11 @@ class Script(unittest.TestCase):
         for line in (CHECKOUT / "deploy/packages.txt").read_text().splitlines():
             if line and not line.startswith("#"):
                 self.assertRegex(line, r"^[a-z0-9][a-z0-9+.-]+ +# \S", line)
+
+    def test_every_link_in_the_documents_leads_somewhere(self):
+        for document in [*CHECKOUT.glob("*.md"), *CHECKOUT.glob("docs/**/*.md")]:
+            for target in re.findall(r"\]\(([^)#:]+)[^):]*\)", document.read_text()):
+                self.assertTrue((document.parent / target).exists(), f"{document}: {target}")
 
 
 if __name__ == "__main__":
