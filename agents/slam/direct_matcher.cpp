@@ -10,6 +10,8 @@ namespace {
 
 /// From here on a cell counts as free: no surface within the truncation distance.
 constexpr float kFree = 0.95F;
+/// Of a piece of surface: one this long has weight 1.
+constexpr float kTypicalLength_m = 0.2F;
 
 /// The prediction's information about (x, y, yaw).
 Eigen::Vector3d information_of(const Prediction& prior) {
@@ -37,11 +39,10 @@ void DirectMatcher::set_scan(std::span<const SurfacePiece> pieces) {
   const auto most = static_cast<std::size_t>(config_.max_points);
   const std::size_t stride = std::max<std::size_t>(1, (pieces.size() + most - 1) / most);
   for (std::size_t i = stride / 2; i < pieces.size(); i += stride) {
+    // Neighbouring points share their errors: a wall seen by many beams is not worth as many walls.
+    const float length_m = std::clamp(pieces[i].left_m + pieces[i].right_m, 0.02F, 0.5F);
     points_.push_back(
-        {pieces[i].point.x(), pieces[i].point.y(),
-         std::pow(pieces[i].quality, config_.quality_power) *
-             std::pow(std::clamp(pieces[i].left_m + pieces[i].right_m, 0.02F, 0.5F) * 5,
-                      config_.length_power)});
+        {pieces[i].point.x(), pieces[i].point.y(), std::sqrt(length_m / kTypicalLength_m)});
   }
 }
 
@@ -61,7 +62,7 @@ DirectMatcher::Normal DirectMatcher::linearise(const TsdView& view, const Pose2&
     if (sample.value > kFree) continue;
     const float r = sample.value * truncation_m;
     const float fade = k2 / (k2 + r * r);
-    const float w = point.weight * fade * fade * (sample.weight / (sample.weight + config_.doubt));
+    const float w = point.weight * fade * fade;
     const float jx = slope * sample.gradient.x(), jy = slope * sample.gradient.y();
     const float jt = (jy * qx - jx * qy) * cell_m;
     hxx += w * jx * jx;

@@ -12,12 +12,9 @@ namespace lifeline::slam {
 struct DirectConfig {
   int max_points = 400;  ///< pieces of surface that take part; more are thinned evenly
   int max_iterations = 15;
-  double first_kernel_m = 0.12;  ///< scale of the robust weight at the start ...
-  double last_kernel_m = 0.04;   ///< ... and in the end
-  double inlier_m = 0.10;        ///< residuals up to this agree with the map
-  float quality_power = 0.0F;
-  float length_power = 0.0F;
-  float doubt = 0.0F;
+  double first_kernel_m = 0.12;    ///< scale of the robust weight at the start ...
+  double last_kernel_m = 0.04;     ///< ... and in the end
+  double inlier_m = 0.10;          ///< residuals up to this agree with the map
   double sigma_m = 0.03;           ///< of one residual
   double independent_points = 60;  ///< how many independent residuals a scan is worth at most
 };

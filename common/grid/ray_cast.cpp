@@ -62,7 +62,7 @@ class RayWalk {
   const TsdView& view_;
   Eigen::Vector2f from_;
   Eigen::Vector2f along_;
-  TsdView::Sample sample_{0.0F, Eigen::Vector2f::Zero(), 0.0F};
+  TsdView::Sample sample_{0.0F, Eigen::Vector2f::Zero()};
 };
 
 }  // namespace

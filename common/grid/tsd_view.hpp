@@ -25,7 +25,6 @@ class TsdView {
   struct Sample {
     float value;
     Eigen::Vector2f gradient;
-    float weight;  ///< least W of the four cells
   };
 
   /// Looks at all tiles within `reach_m` of `centre_map` (and of the map's range), along x and y.
@@ -89,9 +88,6 @@ class TsdView {
     const float v00 = c00.value(), v10 = c10.value(), v01 = c01.value(), v11 = c11.value();
     const float low = v00 + a * (v10 - v00), high = v01 + a * (v11 - v01);
     into.value = low + b * (high - low);
-    into.weight = static_cast<float>(std::min(std::min(c00.weight, c10.weight),
-                                              std::min(c01.weight, c11.weight))) *
-                  (1.0F / TsdCell::kWeightOne);
     into.gradient = {(v10 - v00) + b * ((v11 - v01) - (v10 - v00)), high - low};
     return true;
   }
