@@ -83,7 +83,8 @@ class DdsOutbox final : public wire::Outbox<Message> {
   SampleOf<Message> sample_;
 };
 
-/// Only signals and counts: samples are taken in the owner's thread.
+/// Only signals and counts: samples are taken in the owner's thread. Fast DDS's "lost" samples are
+/// not counted: with KEEP_LAST, each one that was replaced before it was sent is one of them.
 template <typename Message>
 class ReaderListener final : public fast::DataReaderListener {
  public:
@@ -93,21 +94,17 @@ class ReaderListener final : public fast::DataReaderListener {
   void on_sample_rejected(fast::DataReader*, const fast::SampleRejectedStatus& status) override {
     rejected_.store(status.total_count);
   }
-  void on_sample_lost(fast::DataReader*, const fast::SampleLostStatus& status) override {
-    lost_.store(status.total_count);
-  }
   void on_requested_incompatible_qos(fast::DataReader*,
                                      const fast::RequestedIncompatibleQosStatus& status) override {
     warn_of_mismatch(topic_of<Message>().name, status.last_policy_id);
   }
   [[nodiscard]] std::uint64_t refused() const {
-    return static_cast<std::uint64_t>(rejected_.load()) + static_cast<std::uint64_t>(lost_.load());
+    return static_cast<std::uint64_t>(rejected_.load());
   }
 
  private:
   Doorbell& doorbell_;
   std::atomic<std::int32_t> rejected_{0};
-  std::atomic<std::int32_t> lost_{0};
 };
 
 template <typename Message>

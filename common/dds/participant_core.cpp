@@ -10,6 +10,8 @@ namespace lifeline::dds {
 namespace {
 
 constexpr std::uint32_t kMaxDomainId = 232;  // beyond, the ports of RTPS end
+// How long a writer that goes waits for its last samples to be acknowledged.
+const eprosima::fastrtps::Duration_t kFarewell(0, 300'000'000);
 
 fast::DomainParticipantFactory& factory() {
   return *fast::DomainParticipantFactory::get_instance();
@@ -150,7 +152,9 @@ Result<fast::DataReader*> ParticipantCore::make_reader(fast::Topic* topic, std::
 
 void ParticipantCore::remove(fast::DataWriter* writer) {
   writer->set_listener(nullptr);
-  // Deleting a writer with samples that somebody has not acknowledged can hang in 2.9.
+  // Readers that are gone do not answer: then the time passes, and the samples are lost.
+  writer->wait_for_acknowledgments(kFarewell);
+  // Deleting a writer with samples in its history can hang in 2.9.
   std::size_t removed = 0;
   writer->clear_history(&removed);
   publisher_->delete_datawriter(writer);
