@@ -120,7 +120,7 @@ TEST(SlamCommand, SaysInOneLineWhatIsWrong) {
       {options_for(folder, carmen(folder.write("empty.log", "# nothing\n"))), 1},
       {options_for(folder, carmen(folder.write("cut.log", "FLASER 180 1.0 2.0\n"))), 1},
       {bad_matcher, 2},
-      {bad_config, 1},
+      {bad_config, 2},
       {unwritable, 1}};
   for (const auto& [options, expected] : cases) {
     const auto [status, said] = failing(options);
