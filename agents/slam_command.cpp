@@ -10,6 +10,7 @@
 
 #include "agents/agent_settings.hpp"
 #include "agents/sensing/motion_tracker.hpp"
+#include "agents/slam/loop_closer.hpp"
 #include "agents/sources/open_source.hpp"
 #include "common/base/log.hpp"
 #include "common/base/quantile.hpp"
@@ -33,6 +34,11 @@ struct SlamRun {
   int rejected = 0;
   int searches = 0;
   int pushed = 0;
+  int undecided = 0;
+  std::size_t scans = 0;
+  std::size_t loops = 0;
+  int corrections = 0;
+  double longest_correction_ms = 0.0;
 };
 
 double peak_rss_mb() {
@@ -41,27 +47,50 @@ double peak_rss_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB
 }
 
+/// What a helmet does beside the steps: looks for loops and corrects the past. Here it is done at
+/// once, so that the same input gives the same output.
+void correct(slam::LoopCloser& closer, slam::TsdSlam& slam, SlamRun& run) {
+  const auto started = std::chrono::steady_clock::now();
+  for (slam::Keyframe& keyframe : slam.take_keyframes()) {
+    if (auto correction = closer.add(std::move(keyframe))) {
+      run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
+    }
+  }
+  run.longest_correction_ms = std::max(
+      run.longest_correction_ms, 1e3 * to_seconds(std::chrono::steady_clock::now() - started));
+}
+
 Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfig& projection,
-                     slam::TsdSlam& slam) {
+                     slam::TsdSlam& slam, slam::LoopCloser& closer) {
   SlamRun run;
   sensing::MotionTracker motion;
   for (;;) {
     auto raw = source.next();
     if (!raw) return forward_error(raw);
-    if (!*raw) return run;
+    if (!*raw) break;
     const auto started = std::chrono::steady_clock::now();
     const Scan2 scan = sensing::project_scan(**raw, projection);
     const slam::SlamStep step = slam.step(scan, motion.next(**raw));
     run.step_ms.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
-    run.trajectory.push_back({(*raw)->stamp, step.T_map_head});
+    ++run.scans;
+    correct(closer, slam, run);
     if ((*raw)->T_world_head_truth) {
       run.truth.push_back({(*raw)->stamp, *(*raw)->T_world_head_truth});
     }
     run.weak += step.verdict == slam::Verdict::weak ? 1 : 0;
     run.rejected += step.verdict == slam::Verdict::rejected ? 1 : 0;
     run.searches += step.source == slam::PoseSource::search ? 1 : 0;
-    run.pushed += step.pushed ? 1 : 0;
+    run.pushed += step.pushed;
+    run.undecided += step.stories > 1 ? 1 : 0;
   }
+  slam.settle_all();
+  correct(closer, slam, run);
+  if (auto correction = closer.finish()) {
+    run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
+  }
+  run.trajectory = slam.trajectory();
+  run.loops = closer.loops();
+  return run;
 }
 
 std::string to_json(const SlamRun& run, const std::string& matcher, const TsdGrid& layer) {
@@ -76,6 +105,10 @@ std::string to_json(const SlamRun& run, const std::string& matcher, const TsdGri
   json["rejected"] = run.rejected;
   json["searches"] = run.searches;
   json["pushed"] = run.pushed;
+  json["undecided"] = run.undecided;
+  json["loops"] = run.loops;
+  json["corrections"] = run.corrections;
+  json["longest_correction_ms"] = run.longest_correction_ms;
   json["explored_m2"] = known_area_m2(layer);
   return json.dump(1) + "\n";
 }
@@ -125,7 +158,9 @@ Result<void> run_slam(const SlamCommandOptions& options) {
   const auto source = sources::open_source(options.source);
   if (!source) return forward_error(source);
   slam::TsdSlam slam(settings.slam, settings.geometry);
-  const auto run = play(**source, settings.projection, slam);
+  slam::LoopCloser closer({}, settings.geometry, settings.slam.push, settings.slam.tracker,
+                          settings.slam.direct, settings.slam.search);
+  const auto run = play(**source, settings.projection, slam, closer);
   if (!run) return forward_error(run);
   if (auto written = write_all(options, *config, slam.layer(), *run); !written) return written;
   fmt::print("{} scans, {} weak, {} failed; {:.2f} ms a scan (p99 {:.2f}); {:.0f} m2 explored\n",

@@ -1,6 +1,8 @@
 #include "agents/slam/map_tracker.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lifeline::slam {
 namespace {
@@ -8,27 +10,63 @@ namespace {
 constexpr int kTrialIterations = 6;
 }  // namespace
 
-MatchResult MapTracker::match(const WorkingMap& map, const TsdView& view,
-                              std::span<const SurfacePiece> pieces, const Prediction& prediction) {
+std::vector<ScoredMatch> MapTracker::match(const WorkingMap& map, const TsdView& view,
+                                           std::span<const SurfacePiece> pieces,
+                                           const Prediction& prediction) {
   direct_.set_scan(pieces);
   const Pose2 local_pose = direct_.align(view, prediction);
   MatchResult local = judged(view, local_pose, PoseSource::map, prediction);
-  if (!needs_search(local, prediction)) return local;
+  const double local_score = score(view, local_pose, prediction);
+  if (!needs_search(local, prediction)) return {{std::move(local), local_score}};
 
-  Pose2 best_pose = local_pose;
-  double best_score = score(view, local_pose, prediction);
-  bool found = false;
+  std::vector<Place> places{{local_pose, local_score, PoseSource::map}};
+  add_places(map, view, pieces, prediction, places);
+  keep_rivals(places);
+  std::vector<ScoredMatch> matches;
+  for (const Place& place : places) {
+    const Pose2 pose = direct_.align(view, place.T_map_head, prediction, 2 * kTrialIterations);
+    matches.push_back({judged(view, pose, place.source, prediction), place.score});
+  }
+  for (ScoredMatch& match : matches) match.match.evidence.covariance += spread(matches, match);
+  return matches;
+}
+
+Eigen::Matrix3d MapTracker::spread(const std::vector<ScoredMatch>& matches,
+                                   const ScoredMatch& about) const {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const ScoredMatch& rival : matches) {
+    const Pose2 &p = rival.match.T_map_head, &q = about.match.T_map_head;
+    const Eigen::Vector3d apart(p.x_m - q.x_m, p.y_m - q.y_m,
+                                normalise_angle(p.yaw_rad - q.yaw_rad));
+    const double likely = std::exp((rival.score - about.score) / config_.rival_doubt);
+    sum += std::min(likely, 1.0) * apart * apart.transpose();
+  }
+  return sum;
+}
+
+void MapTracker::add_places(const WorkingMap& map, const TsdView& view,
+                            std::span<const SurfacePiece> pieces, const Prediction& prediction,
+                            std::vector<Place>& places) {
   for (const SearchCandidate& candidate : search_.search(map, pieces, prediction)) {
     const Pose2 pose = direct_.align(view, candidate.T_map_head, prediction, kTrialIterations);
-    const double pose_score = score(view, pose, prediction);
-    if (pose_score <= best_score) continue;
-    best_score = pose_score;
-    best_pose = pose;
-    found = true;
+    places.push_back({pose, score(view, pose, prediction), PoseSource::search});
   }
-  if (!found) return local;
-  best_pose = direct_.align(view, best_pose, prediction, 2 * kTrialIterations);
-  return judged(view, best_pose, PoseSource::search, prediction);
+}
+
+void MapTracker::keep_rivals(std::vector<Place>& places) const {
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.score > b.score; });
+  const std::vector<Place> all = std::exchange(places, {});
+  for (const Place& place : all) {
+    if (place.score < all.front().score - config_.rival_score) break;
+    const bool is_new = std::none_of(places.begin(), places.end(), [&](const Place& other) {
+      const Pose2 apart = other.T_map_head.inverse() * place.T_map_head;
+      return apart.translation().norm() < config_.apart_m &&
+             std::abs(apart.yaw_rad) < config_.apart_rad;
+    });
+    if (is_new) places.push_back(place);
+    if (places.size() > static_cast<std::size_t>(config_.max_rivals)) break;
+  }
 }
 
 bool MapTracker::needs_search(const MatchResult& local, const Prediction& prediction) const {

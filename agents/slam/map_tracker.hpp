@@ -19,6 +19,17 @@ struct TrackerConfig {
   double sure_share = 0.85;      ///< no search where the prediction led to this
   double search_sigma_m = 0.15;  ///< always search where the prediction may be this far off
   double lever_m = 5.0;          ///< what an error in yaw is worth
+  double rival_score = 6.0;  ///< places this much less likely (a log-likelihood) are kept in mind
+  int max_rivals = 3;        ///< beside the best
+  double rival_doubt = 2.0;  ///< scores are this much less sure than they look
+  double apart_m = 0.12;     ///< nearer places are the same one ...
+  double apart_rad = 0.03;   ///< ... if they are turned alike
+};
+
+/// A place for a scan.
+struct ScoredMatch {
+  MatchResult match;
+  double score = 0.0;  ///< log-likelihood: agreement with the map and nearness to the prediction
 };
 
 /// The default way of placing a scan: direct alignment from the prediction and, where the
@@ -29,15 +40,28 @@ class MapTracker {
   MapTracker(TrackerConfig config, DirectConfig direct, SearchConfig search)
       : config_(config), direct_(direct), search_(search) {}
 
-  [[nodiscard]] MatchResult match(const WorkingMap& map, const TsdView& view,
-                                  std::span<const SurfacePiece> pieces,
-                                  const Prediction& prediction);
+  /// The best place and its rivals, best first; at least one.
+  [[nodiscard]] std::vector<ScoredMatch> match(const WorkingMap& map, const TsdView& view,
+                                               std::span<const SurfacePiece> pieces,
+                                               const Prediction& prediction);
 
   /// These tiles of the map have changed.
   void forget(std::span<const TileIndex> tiles) { search_.forget(tiles); }
   void forget_all() { search_.forget_all(); }
 
  private:
+  struct Place {
+    Pose2 T_map_head;
+    double score;
+    PoseSource source;
+  };
+  void add_places(const WorkingMap& map, const TsdView& view, std::span<const SurfacePiece> pieces,
+                  const Prediction& prediction, std::vector<Place>& places);
+  /// Best first, each a place of its own, none hopeless.
+  void keep_rivals(std::vector<Place>& places) const;
+  /// What the rivals add to the covariance of one of them.
+  [[nodiscard]] Eigen::Matrix3d spread(const std::vector<ScoredMatch>& matches,
+                                       const ScoredMatch& about) const;
   [[nodiscard]] MatchResult judged(const TsdView& view, const Pose2& T_map_head, PoseSource source,
                                    const Prediction& prediction) const;
   [[nodiscard]] bool needs_search(const MatchResult& local, const Prediction& prediction) const;

@@ -37,6 +37,8 @@ class MotionModel {
 
   /// Starts anew at a pose, standing still.
   void reset(const Pose2& T_map_head);
+  /// The map was corrected: what was T in it is now T_new_old * T.
+  void move(const Pose2& T_new_old) { T_map_head_ = T_new_old * T_map_head_; }
   /// The scan was matched here.
   void matched(const Pose2& T_map_head, const MotionPrior& prior);
   /// The scan was not matched: the prediction stands, and its uncertainty stays.

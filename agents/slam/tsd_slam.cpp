@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "agents/slam/deskew.hpp"
+#include "agents/slam/submap_chain.hpp"
 
 namespace lifeline::slam {
 namespace {
@@ -16,98 +17,125 @@ FailureDetector::Config detector_config(const SlamConfig& config) {
   return detector;
 }
 
-double reach_of(const Scan2& scan) {
-  float reach_m = 0.0F;
-  for (const Beam2& beam : scan.beams) {
-    if (beam.kind == BeamKind::hit) reach_m = std::max(reach_m, beam.range_m);
-  }
-  return static_cast<double>(reach_m);
-}
-
 }  // namespace
 
 TsdSlam::TsdSlam(SlamConfig config, GridGeometry geometry)
     : config_(config),
       map_(geometry),
-      motion_(config.motion),
       model_matcher_(config.ransac, config.icp, detector_config(config), config.max_range_m),
       tracker_(config.tracker, config.direct, config.search),
       gicp_(GicpConfig{.max_iterations = config.gicp_max_iterations}),
       detector_(detector_config(config)),
-      updater_(geometry, config.push) {}
+      updater_(geometry, config.push),
+      keyframes_(config.keyframes),
+      stories_(1, Story{MotionModel(config.motion), 0.0, {}}) {}
 
 SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior) {
   Scan2 scan = raw;
-  const Pose2 predicted_step = motion_.predicted_step(prior);
-  deskew(scan, predicted_step, prior.elapsed);
-  pieces_ = extract_surface(scan, config_.surface);
-  if (!started_) return start(scan);
+  deskew(scan, stories_.front().motion.predicted_step(prior), prior.elapsed);
+  auto pieces = extract_surface(scan, config_.surface);
+  const double reach_m = reach_of(pieces);
+  unsettled_.push_back({std::move(scan), std::move(pieces), reach_m});
+  if (!started_) return start();
 
-  const Prediction prediction = motion_.predict(prior);
-  const MatchResult result = place(scan, prediction, predicted_step);
-  SlamStep step{result.T_map_head, result.evidence, result.verdict, result.source, false, 0};
-  if (result.verdict == Verdict::rejected) {
-    step.T_map_head = prediction.T_map_head;
-    step.source = PoseSource::dead_reckoning;
-    motion_.lost(prediction);
-  } else {
-    motion_.matched(result.T_map_head, prior);
-  }
-  change_trust(result.verdict);
+  std::vector<Story> longer;
+  for (const Story& story : stories_) extend(story, prior, longer);
+  keep_likely(longer, config_.stories);
+  stories_ = std::move(longer);
+  previous_pieces_ = unsettled_.back().pieces;
+
+  const MatchResult& best = stories_.front().steps.back().match;
+  SlamStep step{best.T_map_head,
+                best.evidence,
+                best.verdict,
+                best.source,
+                0,
+                0,
+                static_cast<int>(stories_.size())};
+  change_trust(stories_.size() > 1 ? std::max(best.verdict, Verdict::weak) : best.verdict);
   step.trust_percent = trust_percent_;
-  if (result.verdict == Verdict::accepted && push_is_due(result.T_map_head, scan.stamp)) {
-    push(scan, result.T_map_head);
-    step.pushed = true;
-  }
-  previous_pieces_ = std::move(pieces_);
+  step.pushed = settle(static_cast<std::size_t>(config_.stories.max_unsettled));
   return step;
 }
 
-SlamStep TsdSlam::start(const Scan2& scan) {
+SlamStep TsdSlam::start() {
   SlamStep step;
-  step.evidence.points = static_cast<int>(pieces_.size());
-  if (static_cast<int>(pieces_.size()) < config_.min_model_points) return step;
+  const UnsettledScan scan = std::move(unsettled_.back());
+  unsettled_.clear();
+  step.evidence.points = static_cast<int>(scan.pieces.size());
+  if (step.evidence.points < config_.min_model_points) {
+    settled_.push_back({scan.scan.stamp, 0, {}});
+    return step;
+  }
   started_ = true;
-  motion_.reset({});
-  push(scan, {});
-  previous_pieces_ = pieces_;
   trust_percent_ = 100;
+  push(scan.pieces, {}, scan.scan.stamp);
+  keyframes_.keep(scan.scan.stamp, {}, Eigen::Matrix3d::Zero(), scan.pieces);
+  settled_.push_back({scan.scan.stamp, 1, {}});
+  previous_pieces_ = scan.pieces;
   step.verdict = Verdict::accepted;
   step.source = PoseSource::start;
-  step.pushed = true;
+  step.pushed = 1;
   step.trust_percent = trust_percent_;
   return step;
 }
 
-MatchResult TsdSlam::place(const Scan2& scan, const Prediction& prediction,
-                           const Pose2& predicted_step) {
-  MatchResult result;
-  if (pieces_.empty()) return result;
-  const double margin_m = 2.0 + config_.search.max_window_m;
-  view_.assign(map_, prediction.T_map_head.translation(), reach_of(scan) + margin_m);
-  if (config_.matcher == Matcher::direct) {
-    result = tracker_.match(map_, view_, pieces_, prediction);
-  } else {
-    result = model_matcher_.match(view_, motion_.pose(), scan, pieces_, prediction);
-    // Conventional TSD SLAM has no failure detection: whatever was matched to anything counts.
-    if (config_.matcher == Matcher::conventional && result.evidence.model_points > 0) {
-      result.verdict = Verdict::accepted;
+void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<Story>& longer) {
+  const Prediction prediction = story.motion.predict(prior);
+  for (ScoredMatch& found : place(prediction, story, story.motion.predicted_step(prior))) {
+    Story next = story;
+    next.score += found.score;
+    if (found.match.verdict == Verdict::rejected) {
+      found.match.T_map_head = prediction.T_map_head;
+      found.match.source = PoseSource::dead_reckoning;
+      next.motion.lost(prediction);
+    } else {
+      next.motion.matched(found.match.T_map_head, prior);
     }
+    next.steps.push_back({std::move(found.match), prediction});
+    longer.push_back(std::move(next));
   }
-  if (result.verdict != Verdict::rejected || config_.matcher == Matcher::conventional) {
-    return result;
-  }
-  return match_previous_scan(prediction, predicted_step);
 }
 
-MatchResult TsdSlam::match_previous_scan(const Prediction& prediction,
+std::vector<ScoredMatch> TsdSlam::place(const Prediction& prediction, const Story& story,
+                                        const Pose2& predicted_step) {
+  const UnsettledScan& scan = unsettled_.back();
+  if (scan.pieces.empty()) return {ScoredMatch{}};
+  const double margin_m = 2.0 + config_.search.max_window_m;
+  view_.assign(map_, prediction.T_map_head.translation(), scan.reach_m + margin_m);
+  std::vector<ScoredMatch> found;
+  if (config_.matcher == Matcher::direct) {
+    found = tracker_.match(map_, view_, scan.pieces, prediction);
+  } else {
+    found.push_back({match_by_model(prediction, story), 0.0});
+  }
+  // A helmet that has several stories lives on those that still match.
+  if (found.front().match.verdict == Verdict::rejected && stories_.size() == 1 &&
+      config_.matcher != Matcher::conventional) {
+    found.assign(1, {match_previous_scan(prediction, story.motion.pose(), predicted_step), 0.0});
+  }
+  return found;
+}
+
+MatchResult TsdSlam::match_by_model(const Prediction& prediction, const Story& story) const {
+  const UnsettledScan& seen = unsettled_.back();
+  MatchResult result =
+      model_matcher_.match(view_, story.motion.pose(), seen.scan, seen.pieces, prediction);
+  // Conventional TSD SLAM has no failure detection: whatever was matched to anything counts.
+  if (config_.matcher == Matcher::conventional && result.evidence.model_points > 0) {
+    result.verdict = Verdict::accepted;
+  }
+  return result;
+}
+
+MatchResult TsdSlam::match_previous_scan(const Prediction& prediction, const Pose2& last_pose,
                                          const Pose2& predicted_step) const {
-  const PointSet model = to_points(previous_pieces_), scan = to_points(pieces_);
+  const PointSet model = to_points(previous_pieces_), scan = to_points(unsettled_.back().pieces);
   const Pose2 T_previous_now = gicp_.match(model, scan, predicted_step);
   const MatchError error = detector_.measure(model, scan, T_previous_now);
   MatchResult result;
   result.source = PoseSource::scan_to_scan;
-  result.T_map_head = motion_.pose() * T_previous_now;
+  result.T_map_head = last_pose * T_previous_now;
   result.evidence.points = static_cast<int>(scan.size());
   result.evidence.known = static_cast<int>(model.size());
   result.evidence.inliers = result.evidence.model_points = error.model_points;
@@ -119,6 +147,49 @@ MatchResult TsdSlam::match_previous_scan(const Prediction& prediction,
   return result;
 }
 
+int TsdSlam::settle(std::size_t most_unsettled) {
+  int pushed = 0;
+  while (!unsettled_.empty() && (unsettled_.size() > most_unsettled || agree_on_oldest(stories_))) {
+    const StoryStep step = stories_.front().steps.front();
+    settle_oldest(stories_);
+    pushed += settle_scan(unsettled_.front(), step) ? 1 : 0;
+    unsettled_.erase(unsettled_.begin());
+  }
+  if (stories_.size() == 1) stories_.front().score = 0.0;
+  return pushed;
+}
+
+bool TsdSlam::settle_scan(const UnsettledScan& scan, const StoryStep& step) {
+  const Pose2& T_map_head = step.match.T_map_head;
+  const bool accepted = step.match.verdict == Verdict::accepted;
+  if (!accepted) keyframes_.note_lost(step.prediction);
+  const bool pushes = accepted && push_is_due(T_map_head, scan.scan.stamp);
+  if (pushes) {
+    push(scan.pieces, T_map_head, scan.scan.stamp);
+    if (keyframes_.is_due(T_map_head)) {
+      keyframes_.keep(scan.scan.stamp, T_map_head, step.match.evidence.covariance, scan.pieces);
+    }
+  }
+  settled_.push_back(
+      {scan.scan.stamp, keyframes_.size(), keyframes_.poses().back().inverse() * T_map_head});
+  return pushes;
+}
+
+void TsdSlam::settle_all() {
+  settle(0);
+}
+
+std::vector<StampedPose> TsdSlam::trajectory() const {
+  std::vector<StampedPose> trajectory;
+  trajectory.reserve(settled_.size());
+  for (const SettledScan& scan : settled_) {
+    const Pose2 T_map_keyframe =
+        scan.keyframes == 0 ? Pose2{} : keyframes_.poses()[scan.keyframes - 1];
+    trajectory.push_back({scan.stamp, T_map_keyframe * scan.T_keyframe_head});
+  }
+  return trajectory;
+}
+
 bool TsdSlam::push_is_due(const Pose2& T_map_head, Timestamp stamp) const {
   const Pose2 moved = pushed_at_.inverse() * T_map_head;
   return moved.translation().norm() >= config_.push_distance_m ||
@@ -126,13 +197,13 @@ bool TsdSlam::push_is_due(const Pose2& T_map_head, Timestamp stamp) const {
          std::abs(to_seconds(stamp - pushed_stamp_)) >= config_.push_interval_s;
 }
 
-void TsdSlam::push(const Scan2& scan, const Pose2& T_map_head) {
-  const auto changed = updater_.push(pieces_, T_map_head, 1.0, map_.own());
+void TsdSlam::push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp) {
+  const auto changed = updater_.push(pieces, T_map_head, 1.0, map_.own());
   map_.note_own_changed(changed);
   tracker_.forget(changed);
   changed_.insert(changed.begin(), changed.end());
   pushed_at_ = T_map_head;
-  pushed_stamp_ = scan.stamp;
+  pushed_stamp_ = stamp;
 }
 
 void TsdSlam::change_trust(Verdict verdict) {
@@ -147,6 +218,31 @@ void TsdSlam::change_trust(Verdict verdict) {
       trust_percent_ = std::max(0, trust_percent_ - 20);
       break;
   }
+}
+
+bool TsdSlam::apply(MapCorrection correction) {
+  const auto T_new_old = keyframes_.rebase(correction);
+  if (!T_new_old) return false;
+  for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
+  map_.own() = std::move(correction.layer);
+  std::vector<SurfacePiece> pieces;
+  for (const Keyframe& keyframe : keyframes_.unknown_to(correction)) {
+    pieces.clear();
+    keyframe.surface.unpack(pieces);
+    (void)updater_.push(pieces, keyframe.T_map_head, 1.0, map_.own());
+  }
+  for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
+  map_.note_own_changed(std::vector<TileIndex>(changed_.begin(), changed_.end()));
+  tracker_.forget_all();
+  for (Story& story : stories_) {
+    story.motion.move(*T_new_old);
+    for (StoryStep& step : story.steps) {
+      step.match.T_map_head = *T_new_old * step.match.T_map_head;
+      step.prediction.T_map_head = *T_new_old * step.prediction.T_map_head;
+    }
+  }
+  pushed_at_ = *T_new_old * pushed_at_;
+  return true;
 }
 
 std::vector<TileIndex> TsdSlam::take_changed_tiles() {

@@ -6,11 +6,14 @@
 
 #include "agents/slam/failure_detector.hpp"
 #include "agents/slam/gicp_matcher.hpp"
+#include "agents/slam/keyframe_log.hpp"
 #include "agents/slam/map_tracker.hpp"
 #include "agents/slam/model_matcher.hpp"
 #include "agents/slam/motion_model.hpp"
 #include "agents/slam/slam_types.hpp"
+#include "agents/slam/story.hpp"
 #include "agents/slam/working_map.hpp"
+#include "common/grid/stamped_pose.hpp"
 #include "common/grid/tsd_update.hpp"
 
 namespace lifeline::slam {
@@ -40,6 +43,8 @@ struct SlamConfig {
   double push_distance_m = 0.05;  ///< a scan is pushed when the head moved this far ...
   double push_turn_rad = 0.03;    ///< ... or turned this much ...
   double push_interval_s = 0.25;  ///< ... or this time went by since the last push
+  KeyframeConfig keyframes;
+  StoryConfig stories;
 };
 
 /// What one scan did.
@@ -48,8 +53,9 @@ struct SlamStep {
   MatchEvidence evidence;
   Verdict verdict = Verdict::rejected;
   PoseSource source = PoseSource::dead_reckoning;
-  bool pushed = false;    ///< the scan entered the layer
+  int pushed = 0;         ///< scans that entered the layer: this one, or older ones settled by it
   int trust_percent = 0;  ///< how far the pose can be relied on; falls while nothing matches
+  int stories = 1;        ///< places that are still possible; the pose is the likeliest
 };
 
 /// One helmet's SLAM (paper, section 2). Frame: `map`, whose origin is the first pose. One owner.
@@ -67,32 +73,56 @@ class TsdSlam {
   /// The layer's tiles changed since the last call, ordered.
   [[nodiscard]] std::vector<TileIndex> take_changed_tiles();
 
+  /// Where the scans were taken, by all that is known now: all but the last few.
+  [[nodiscard]] std::vector<StampedPose> trajectory() const;
+  /// Settles the last few by what is known: no more scans will come.
+  void settle_all();
+  /// The keyframes since the last call, in order.
+  [[nodiscard]] std::vector<Keyframe> take_keyframes() { return keyframes_.take(); }
+  /// Takes over a corrected past: the layer as drawn anew, the scans since then on top, the present
+  /// moved along. False, and nothing done, where the correction is too old.
+  bool apply(MapCorrection correction);
+
   /// Peers' cells in this map's frame (Eq. 8-10); nullptr takes a tile away.
   void set_peer_tile(TileIndex tile, std::shared_ptr<const TsdTile> cells);
   void clear_peers();
   void set_own_weight(double w_T1);
 
  private:
-  [[nodiscard]] SlamStep start(const Scan2& scan);
-  [[nodiscard]] MatchResult place(const Scan2& scan, const Prediction& prediction,
-                                  const Pose2& predicted_step);
+  /// A scan's place, held to the keyframe before it: a correction moves both.
+  struct SettledScan {
+    Timestamp stamp{};
+    std::size_t keyframes = 0;  ///< so many were kept up to here
+    Pose2 T_keyframe_head;  ///< from the last of them; from the map's origin, where there is none
+  };
+
+  [[nodiscard]] SlamStep start();
+  void extend(const Story& story, const MotionPrior& prior, std::vector<Story>& longer);
+  [[nodiscard]] std::vector<ScoredMatch> place(const Prediction& prediction, const Story& story,
+                                               const Pose2& predicted_step);
+  [[nodiscard]] MatchResult match_by_model(const Prediction& prediction, const Story& story) const;
   [[nodiscard]] MatchResult match_previous_scan(const Prediction& prediction,
+                                                const Pose2& last_pose,
                                                 const Pose2& predicted_step) const;
+  int settle(std::size_t most_unsettled);
+  [[nodiscard]] bool settle_scan(const UnsettledScan& scan, const StoryStep& step);
   [[nodiscard]] bool push_is_due(const Pose2& T_map_head, Timestamp stamp) const;
-  void push(const Scan2& scan, const Pose2& T_map_head);
+  void push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp);
   void change_trust(Verdict verdict);
 
   SlamConfig config_;
   WorkingMap map_;
-  MotionModel motion_;
   ModelMatcher model_matcher_;
   MapTracker tracker_;
   GicpMatcher gicp_;
   FailureDetector detector_;
   TsdUpdater updater_;
   TsdView view_;
-  std::vector<SurfacePiece> pieces_;           ///< of the current scan
+  KeyframeLog keyframes_;
+  std::vector<Story> stories_;                 ///< best first; never empty
+  std::vector<UnsettledScan> unsettled_;       ///< oldest first
   std::vector<SurfacePiece> previous_pieces_;  ///< D_(k-1)
+  std::vector<SettledScan> settled_;
   std::set<TileIndex> changed_;
   bool started_ = false;
   int trust_percent_ = 0;
