@@ -177,13 +177,12 @@ TEST(PushProperty, APushedScanRayCastsBackWithinACell) {
           cast_ray(view, T.translation(), T.yaw_rad + static_cast<double>(beam.angle_rad), 20.0);
       if (!hit) continue;
       ++met;
-      // Within a cell of some wall; past its end, pieces reach halfway to the next beam.
-      const double halfway_m = hit->range_m * M_PI / 360.0;
-      near += world.distance(hit->p_map) < kGeometry.cell_size_m + halfway_m ? 1U : 0U;
+      near += world.distance(hit->p_map) < kGeometry.cell_size_m ? 1U : 0U;
     }
     // A single scan shows too little of what it sees at a flat angle or in two or three beams.
     EXPECT_GT(static_cast<double>(met), 0.90 * static_cast<double>(hits));
-    EXPECT_GT(static_cast<double>(near), 0.99 * static_cast<double>(met)) << trial;
+    // Past a wall's free end its band goes on a little, and gaps seen at a flat angle are bridged.
+    EXPECT_GT(static_cast<double>(near), 0.97 * static_cast<double>(met)) << trial;
   }
 }
 
