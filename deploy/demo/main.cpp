@@ -1,6 +1,7 @@
 // lifeline-demo: lets helmets and a coordinator map a building together, as processes of their own,
 // and judges the outcome.
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -21,8 +22,9 @@ namespace lifeline::demo {
 namespace {
 
 constexpr double kLogPlay_s = 35.0;
-constexpr double kWalk_s = 120.0;  ///< simulated
-constexpr double kWalkSpeed = 3.0;
+constexpr double kWalk_s = 120.0;     ///< simulated
+constexpr double kWalkSpeed = 3.0;    ///< times real time ...
+constexpr double kFastHelmets = 4.0;  ///< ... for so many helmets; more walk slower
 constexpr double kTimeToSettle_s = 60.0;
 constexpr Duration kTimeToReport = std::chrono::seconds(15);
 constexpr Duration kTimeToStop = std::chrono::seconds(5);
@@ -31,11 +33,13 @@ constexpr Duration kTimeToStop = std::chrono::seconds(5);
 /// anything starts; a log has been read as a whole by then.
 Result<FleetPlan> plan_fleet(const Options& options) {
   if (!options.log.empty()) return plan_log(options.log, options.helmets, kLogPlay_s);
-  FleetPlan fleet = plan_walk({.plan = options.plan.empty() ? "office" : options.plan,
-                               .duration_s = kWalk_s,
-                               .speed = kWalkSpeed,
-                               .seed = options.seed},
-                              options.helmets);
+  FleetPlan fleet = plan_walk(
+      {.plan = options.plan.empty() ? "office" : options.plan,
+       .duration_s = kWalk_s,
+       .speed = std::clamp(kWalkSpeed * kFastHelmets / static_cast<double>(options.helmets), 1.0,
+                           kWalkSpeed),
+       .seed = options.seed},
+      options.helmets);
   if (auto opened = sources::open_source(fleet.helmets.front().source); !opened) {
     return forward_error(opened);
   }
