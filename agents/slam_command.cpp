@@ -128,7 +128,9 @@ Result<void> save_layer(const std::filesystem::path& name, Floor floor, const Ts
   if (auto saved = files::save_map(file, {*id, MapId{1}, floor}, layer, run.trajectory); !saved) {
     return saved;
   }
-  return files::write_occupancy_image(name, to_occupancy(layer));
+  const auto occupancy = to_occupancy(layer);
+  if (!occupancy) return forward_error(occupancy);
+  return files::write_occupancy_image(name, *occupancy);
 }
 
 Result<void> write_all(const SlamCommandOptions& options, const proto::AgentConfig& config,

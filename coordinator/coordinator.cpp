@@ -121,8 +121,7 @@ void Coordinator::count_known_cells(SteadyTime now) {
     progress.finished = entry != nullptr && entry->status.state == wire::AgentState::finished;
     if (counted_changes_[layer] == progress.changes) continue;
     counted_changes_[layer] = progress.changes;
-    progress.known_cells =
-        known_cells(to_occupancy(to_grid(*store_.find(layer), settings_.geometry)));
+    progress.known_cells = known_cells(to_grid(*store_.find(layer), settings_.geometry));
   }
 }
 

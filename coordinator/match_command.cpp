@@ -29,7 +29,9 @@ Result<LoadedMap> load(const std::filesystem::path& file) {
     auto features = matching::build_features(saved->grid);
     if (!features)
       return fail(features.error().code, "{}: {}", file.string(), features.error().text);
-    return LoadedMap{to_occupancy(saved->grid), *std::move(features)};
+    auto occupancy = to_occupancy(saved->grid);
+    if (!occupancy) return forward_error(occupancy);
+    return LoadedMap{*std::move(occupancy), *std::move(features)};
   }
   auto occupancy = files::read_occupancy_image(file);
   if (!occupancy) return forward_error(occupancy);

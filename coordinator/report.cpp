@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/base/log.hpp"
 #include "common/base/sha256.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/map_picture.hpp"
@@ -70,6 +71,7 @@ std::string to_json(const Coordinator& coordinator, Settlement outcome) {
   const bool shares = !coordinator.common_map().placements().empty();
   Json json;
   json["settled"] = outcome == Settlement::shared;
+  json["outcome"] = to_string(outcome);
   json["epoch"] = status.epoch_applied;
   json["common_map_sha256"] = shares ? to_hex(status.common_map_sha256) : "";
   json["fingerprint"] = shares ? to_hex(status.fingerprint) : "";
@@ -87,8 +89,15 @@ files::PicturePath picture_path(const LayerKey& layer, const Coordinator::Path& 
   return drawn;
 }
 
+/// One peer's impossible map must not cost the report of all the others.
+Result<void> leave_out(std::string_view what, const Error& why) {
+  spdlog::warn("report: {} is left out: {}", what, why.text);
+  return {};
+}
+
 Result<void> write_common_map(const std::filesystem::path& folder, const Coordinator& coordinator) {
-  const OccupancyGrid grid = to_occupancy(coordinator.common_map().to_grid());
+  const auto grid = to_occupancy(coordinator.common_map().to_grid());
+  if (!grid) return leave_out("common_map.png", grid.error());
   std::vector<files::PicturePath> paths;
   for (const auto& placement : coordinator.common_map().placements()) {
     const auto path = coordinator.paths().find(placement.layer);
@@ -97,15 +106,16 @@ Result<void> write_common_map(const std::filesystem::path& folder, const Coordin
         picture_path(placement.layer, path->second, sharing::to_pose(placement.T_fused_layer)));
   }
   const std::string title = fmt::format("Common map of {} helmets", paths.size());
-  if (auto drawn = files::write_map_picture(folder / "common_map.png", grid, paths, title); !drawn)
+  if (auto drawn = files::write_map_picture(folder / "common_map.png", *grid, paths, title); !drawn)
     return drawn;
-  return files::write_occupancy_image(folder / "common_map", grid);
+  return files::write_occupancy_image(folder / "common_map", *grid);
 }
 
 Result<void> write_own_map(const std::filesystem::path& folder, const Coordinator& coordinator,
                            const LayerKey& layer) {
   const auto& tiles = *coordinator.store().find(layer);
-  const OccupancyGrid grid = to_occupancy(sharing::to_grid(tiles, coordinator.store().geometry()));
+  const auto grid = to_occupancy(sharing::to_grid(tiles, coordinator.store().geometry()));
+  if (!grid) return leave_out(fmt::format("the picture of {}", to_string(layer)), grid.error());
   std::vector<files::PicturePath> paths;
   if (const auto path = coordinator.paths().find(layer); path != coordinator.paths().end()) {
     paths.push_back(picture_path(layer, path->second, Pose2{}));
@@ -113,7 +123,7 @@ Result<void> write_own_map(const std::filesystem::path& folder, const Coordinato
   const std::string name = layer.map_id.value == 1
                                ? layer.agent_id.text()
                                : fmt::format("{}-{}", layer.agent_id.text(), layer.map_id.value);
-  return files::write_map_picture(folder / (name + ".png"), grid, paths,
+  return files::write_map_picture(folder / (name + ".png"), *grid, paths,
                                   fmt::format("Own map of {} before merging", to_string(layer)));
 }
 

@@ -27,6 +27,18 @@ bool holds_what_we_hold(const wire::AgentStatus& helmet, const sharing::ReplicaS
 
 }  // namespace
 
+std::string_view to_string(Settlement settlement) {
+  switch (settlement) {
+    case Settlement::working:
+      return "working";
+    case Settlement::apart:
+      return "apart";
+    case Settlement::shared:
+      return "shared";
+  }
+  return "?";
+}
+
 Settlement settlement(const Coordinator& coordinator, std::size_t helmets) {
   const auto statuses = helmets_of(coordinator.roster());
   if (statuses.size() < helmets || !coordinator.idle()) return Settlement::working;

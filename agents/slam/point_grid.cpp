@@ -7,39 +7,59 @@
 
 namespace lifeline::slam {
 namespace {
-constexpr double kMaxBins = 4000.0;
+
+/// Points spread further take wider bins: slower to search, never more memory.
+constexpr double kMaxBins = 250'000.0;
+/// Coordinates beyond are no place in any building; differences of those below stay exact enough.
+constexpr double kFarthestM = 1e9;
+
+bool is_usable(const Eigen::Vector2d& p) {
+  return p.allFinite() && p.cwiseAbs().maxCoeff() <= kFarthestM;
 }
 
-PointGrid::PointGrid(std::span<const Eigen::Vector2d> points, double bin_m) : bin_m_(bin_m) {
+}  // namespace
+
+PointGrid::PointGrid(std::span<const Eigen::Vector2d> points, double bin_m)
+    : max_within_m_(bin_m), bin_m_(bin_m) {
   LIFELINE_CHECK(bin_m > 0.0);
-  if (points.empty()) {
-    first_of_bin_.assign(2, 0);
-    return;
+  std::vector<std::size_t> usable;
+  usable.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_usable(points[i])) usable.push_back(i);
   }
-  Eigen::Vector2d low = points.front(), high = points.front();
-  for (const Eigen::Vector2d& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  corner_ = low;
-  columns_ = static_cast<std::int32_t>(std::min((high.x() - low.x()) / bin_m, kMaxBins)) + 1;
-  rows_ = static_cast<std::int32_t>(std::min((high.y() - low.y()) / bin_m, kMaxBins)) + 1;
-  const auto bin_of = [&](const Eigen::Vector2d& p) {
-    return static_cast<std::size_t>(bin_along(p.y() - corner_.y(), rows_)) *
-               static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(bin_along(p.x() - corner_.x(), columns_));
-  };
+  if (!usable.empty()) lay_out(points, usable);
   first_of_bin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
-  for (const Eigen::Vector2d& p : points) ++first_of_bin_[bin_of(p)];
+  for (const std::size_t i : usable) ++first_of_bin_[bin_of(points[i])];
   std::size_t total = 0;
   for (std::size_t& first : first_of_bin_) total = first += total;
-  points_.resize(points.size());
-  index_.resize(points.size());
-  for (std::size_t i = points.size(); i-- > 0;) {
-    const std::size_t at = --first_of_bin_[bin_of(points[i])];
-    points_[at] = points[i];
-    index_[at] = i;
+  points_.resize(usable.size());
+  index_.resize(usable.size());
+  for (auto i = usable.rbegin(); i != usable.rend(); ++i) {
+    const std::size_t at = --first_of_bin_[bin_of(points[*i])];
+    points_[at] = points[*i];
+    index_[at] = *i;
   }
+}
+
+void PointGrid::lay_out(std::span<const Eigen::Vector2d> points,
+                        std::span<const std::size_t> usable) {
+  Eigen::Vector2d low = points[usable.front()], high = low;
+  for (const std::size_t i : usable) {
+    low = low.cwiseMin(points[i]);
+    high = high.cwiseMax(points[i]);
+  }
+  corner_ = low;
+  const auto bins = [&](double length_m) { return std::floor(length_m / bin_m_) + 1.0; };
+  const Eigen::Vector2d size = high - low;
+  while (bins(size.x()) * bins(size.y()) > kMaxBins) bin_m_ *= 2.0;
+  columns_ = static_cast<std::int32_t>(bins(size.x()));
+  rows_ = static_cast<std::int32_t>(bins(size.y()));
+}
+
+std::size_t PointGrid::bin_of(const Eigen::Vector2d& p) const {
+  return static_cast<std::size_t>(bin_along(p.y() - corner_.y(), rows_)) *
+             static_cast<std::size_t>(columns_) +
+         static_cast<std::size_t>(bin_along(p.x() - corner_.x(), columns_));
 }
 
 std::int32_t PointGrid::bin_along(double from_corner_m, std::int32_t bins) const {
@@ -49,7 +69,8 @@ std::int32_t PointGrid::bin_along(double from_corner_m, std::int32_t bins) const
 
 std::optional<PointGrid::Neighbour> PointGrid::nearest(const Eigen::Vector2d& p,
                                                        double within_m) const {
-  LIFELINE_CHECK(within_m <= bin_m_);
+  LIFELINE_CHECK(within_m <= max_within_m_);
+  if (!is_usable(p)) return std::nullopt;
   const std::int32_t column = bin_along(p.x() - corner_.x(), columns_);
   const std::int32_t row = bin_along(p.y() - corner_.y(), rows_);
   double best_m2 = within_m * within_m;

@@ -21,9 +21,26 @@ Occupancy classify(const TsdGrid& tsd, CellIndex i) {
   return cell.tsd > 0 ? Occupancy::free : Occupancy::unknown;
 }
 
+/// Calls use(index, occupancy) for each cell of a tile.
+template <typename Use>
+void each_cell(const TsdGrid& tsd, TileIndex tile, Use&& use) {
+  const CellIndex first = first_cell(tile);
+  for (int y = first.y; y < first.y + kTileSide; ++y) {
+    for (int x = first.x; x < first.x + kTileSide; ++x) use(CellIndex{x, y}, classify(tsd, {x, y}));
+  }
+}
+
 }  // namespace
 
-OccupancyGrid to_occupancy(const TsdGrid& tsd) {
+Result<void> check_grid_size(std::int64_t columns, std::int64_t rows) {
+  if (columns <= kMaxCellsPerSide && rows <= kMaxCellsPerSide && columns * rows <= kMaxGridCells)
+    return {};
+  return fail(ErrorCode::unsupported,
+              "the map has {} x {} cells: a grid has at most {} a side and {} million in all",
+              columns, rows, kMaxCellsPerSide, kMaxGridCells / 1'000'000);
+}
+
+Result<OccupancyGrid> to_occupancy(const TsdGrid& tsd) {
   OccupancyGrid grid;
   grid.cell_size_m = tsd.geometry().cell_size_m;
   const auto tiles = tsd.tiles();
@@ -36,15 +53,13 @@ OccupancyGrid to_occupancy(const TsdGrid& tsd) {
   grid.origin_m = Eigen::Vector2d(corner.x, corner.y) * grid.cell_size_m;
   grid.columns = (high_x->x - low_x->x + 1) * kTileSide;
   grid.rows = (high_y->y - low_y->y + 1) * kTileSide;
+  if (auto size = check_grid_size(grid.columns, grid.rows); !size) return forward_error(size);
   grid.cells.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),
                     Occupancy::unknown);
   for (const TileIndex tile : tiles) {
-    const CellIndex first = first_cell(tile);
-    for (int y = first.y; y < first.y + kTileSide; ++y) {
-      for (int x = first.x; x < first.x + kTileSide; ++x) {
-        grid.cells[grid.index(x - corner.x, y - corner.y)] = classify(tsd, {x, y});
-      }
-    }
+    each_cell(tsd, tile, [&](CellIndex i, Occupancy occupancy) {
+      grid.cells[grid.index(i.x - corner.x, i.y - corner.y)] = occupancy;
+    });
   }
   return grid;
 }
@@ -53,6 +68,16 @@ std::size_t known_cells(const OccupancyGrid& grid) {
   return static_cast<std::size_t>(
       std::count_if(grid.cells.begin(), grid.cells.end(),
                     [](Occupancy cell) { return cell != Occupancy::unknown; }));
+}
+
+std::size_t known_cells(const TsdGrid& tsd) {
+  std::size_t known = 0;
+  for (const TileIndex tile : tsd.tiles()) {
+    each_cell(tsd, tile, [&](CellIndex, Occupancy occupancy) {
+      known += occupancy != Occupancy::unknown ? 1U : 0U;
+    });
+  }
+  return known;
 }
 
 }  // namespace lifeline

@@ -13,14 +13,6 @@ namespace {
 
 constexpr std::size_t kMaxWallPoints = 400'000;
 
-Result<void> check_extent(std::int64_t columns, std::int64_t rows) {
-  if (columns <= kMaxCellsPerSide && rows <= kMaxCellsPerSide && columns * rows <= kMaxCells)
-    return {};
-  return fail(ErrorCode::unsupported,
-              "the map has {} x {} cells: at most {} a side and {} million in all are matched",
-              columns, rows, kMaxCellsPerSide, kMaxCells / 1'000'000);
-}
-
 Result<void> check_size(const OccupancyGrid& grid) {
   if (!std::isfinite(grid.cell_size_m) || grid.cell_size_m <= 0) {
     return fail(ErrorCode::bad_data, "the map's cell size is {} m: it must be a positive number",
@@ -30,24 +22,11 @@ Result<void> check_size(const OccupancyGrid& grid) {
     return fail(ErrorCode::bad_data, "the map's origin ({}, {}) is not a number", grid.origin_m.x(),
                 grid.origin_m.y());
   }
-  if (const auto extent = check_extent(grid.columns, grid.rows); !extent) return extent;
+  if (auto size = check_grid_size(grid.columns, grid.rows); !size) return size;
   LIFELINE_CHECK(grid.columns >= 0 && grid.rows >= 0 &&
                  grid.cells.size() ==
                      static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
   return {};
-}
-
-/// Before a dense grid is made of it.
-Result<void> check_extent(const TsdGrid& tsd) {
-  const std::vector<TileIndex> tiles = tsd.tiles();
-  if (tiles.empty()) return {};
-  std::int32_t bottom = tiles.front().y, top = bottom;
-  for (const TileIndex tile : tiles) {
-    bottom = std::min(bottom, tile.y);
-    top = std::max(top, tile.y);
-  }
-  return check_extent(kTileSide * (std::int64_t{tiles.back().x} - tiles.front().x + 1),
-                      kTileSide * (std::int64_t{top} - bottom + 1));
 }
 
 /// Completes the features from the raw `cropped` grid and its dense wall points.
@@ -80,10 +59,10 @@ Result<MapFeatures> build_features(const OccupancyGrid& grid) {
 }
 
 Result<MapFeatures> build_features(const TsdGrid& tsd) {
-  if (const auto checked = check_extent(tsd); !checked) return forward_error(checked);
-  const OccupancyGrid grid = to_occupancy(tsd);
-  if (const auto checked = check_size(grid); !checked) return forward_error(checked);
-  const OccupancyGrid cropped = crop_to_known(grid, kWallMargin);
+  const auto grid = to_occupancy(tsd);
+  if (!grid) return forward_error(grid);
+  if (const auto checked = check_size(*grid); !checked) return forward_error(checked);
+  const OccupancyGrid cropped = crop_to_known(*grid, kWallMargin);
   return complete(cropped, wall_points(tsd, cropped.origin_m));
 }
 

@@ -34,13 +34,9 @@ struct MapFeatures {
 inline constexpr float kWallSpacing_m = 0.1F;
 inline constexpr float kSkeletonSpacing_m = 0.25F;
 
-/// Larger maps are refused.
-inline constexpr int kMaxCellsPerSide = 20000;
-inline constexpr std::int64_t kMaxCells = 100'000'000;
-
-/// Refuses (unsupported, bad_data) maps beyond the limits, with more than 40 km of wall, with a
-/// cell size that is no positive number or an origin that is no number. A map without any known
-/// cell is fine: it has no walls.
+/// Refuses (unsupported, bad_data) maps too large for a grid (check_grid_size), with more than 40
+/// km of wall, with a cell size that is no positive number or an origin that is no number. A map
+/// without any known cell is fine: it has no walls.
 [[nodiscard]] Result<MapFeatures> build_features(const OccupancyGrid& grid);
 
 /// From a TSD layer: its zero crossings and gradients give finer walls than the cells of Eq. 6.

@@ -154,6 +154,22 @@ bool is_one_map(const json& summary) {
   return all_in_one_map(helmets, merges);
 }
 
+Verdict judge(const json& summary, const json& coordinator) {
+  const std::string outcome = text(field(coordinator, "outcome"), "working");
+  if (summary["helmets"].size() == 1 && outcome == "apart") {
+    const std::string id = text(summary["helmets"][0]["agent_id"], "?");
+    return {true, fmt::format("{0} was alone: nobody to share a map with; the coordinator holds "
+                              "all of its map ({0}.png)",
+                              id)};
+  }
+  if (outcome == "working") return {false, "the helmets did not come to share one map in time"};
+  if (!is_one_map(summary)) return {false, "the helmets are not all in one map"};
+  if (summary["shared"] != true || outcome != "shared") {
+    return {false, "the maps are not the same on all machines"};
+  }
+  return {true, "all share one map"};
+}
+
 std::string render_summary(const json& summary) {
   std::string table =
       fmt::format("{:<10} {:>6} {:>8} {:>10} {:>8} {:>9} {:>8}  {}\n", "helmet", "scans", "dropped",

@@ -26,6 +26,16 @@ struct HelmetOutcome {
 /// True where the summary's accepted merges tie all of its helmets together.
 [[nodiscard]] bool is_one_map(const nlohmann::json& summary);
 
+/// How a demo ended.
+struct Verdict {
+  bool good = false;
+  std::string text;  ///< for people, one line
+};
+
+/// Good is one map on all machines, all in it. A helmet alone has nobody to share with: there, good
+/// is that the coordinator holds all of its map. `coordinator` is coordinator.json, or null.
+[[nodiscard]] Verdict judge(const nlohmann::json& summary, const nlohmann::json& coordinator);
+
 /// The summary as a table for people, several lines.
 [[nodiscard]] std::string render_summary(const nlohmann::json& summary);
 

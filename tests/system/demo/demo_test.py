@@ -97,6 +97,17 @@ class Demo(unittest.TestCase):
         self.assertIn("all share one map", done.stdout)
         self.assertTrue(gone_within(self.report, 5), processes_about(self.report))
 
+    def test_a_helmet_alone_maps_and_shares_nothing(self):
+        done = self.run_demo("--helmets", "1")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("alpha was alone", done.stdout)
+        summary = json.loads((self.report / "summary.json").read_text())
+        self.assertIs(summary["shared"], False)
+        self.assertEqual(summary["merges"], [])
+        self.assertLessEqual(summary["helmets"][0]["trajectory_rmse_m"], 0.10)
+        self.assertTrue((self.report / "alpha.png").exists())
+        self.assertFalse((self.report / "common_map.png").exists())
+
     def check_log(self, name):
         log = DATA / "carmen" / name
         if not log.exists():

@@ -106,6 +106,33 @@ TEST(IsOneMap, counts_accepted_merges_only) {
   EXPECT_FALSE(is_one_map(make_summary(two_helmets("abc1", "abc1"), seen, 1.0)));
 }
 
+TEST(Judge, wants_one_map_that_all_hold) {
+  json seen = coordinator("abc1");
+  const auto verdict = [&](const char* hash_b, const char* outcome) {
+    seen["outcome"] = outcome;
+    return judge(make_summary(two_helmets("abc1", hash_b), seen, 1.0), seen);
+  };
+  EXPECT_TRUE(verdict("abc1", "shared").good);
+  EXPECT_FALSE(verdict("abc2", "shared").good);
+  EXPECT_FALSE(verdict("abc1", "apart").good);
+  EXPECT_THAT(verdict("abc1", "working").text, HasSubstr("in time"));
+  seen["merges"] = json::array();
+  EXPECT_THAT(verdict("abc1", "apart").text, HasSubstr("not all in one map"));
+  EXPECT_FALSE(judge(make_summary(two_helmets("abc1", "abc1"), json(), 1.0), json()).good);
+}
+
+TEST(Judge, a_helmet_alone_shares_nothing_and_has_not_failed) {
+  auto helmets = two_helmets("", "");
+  helmets.pop_back();
+  json seen{{"common_map_sha256", ""}, {"merges", json::array()}, {"outcome", "apart"}};
+  const json summary = make_summary(helmets, seen, 1.0);
+  EXPECT_EQ(summary["shared"], false);
+  EXPECT_TRUE(judge(summary, seen).good);
+  EXPECT_THAT(judge(summary, seen).text, HasSubstr("alpha was alone"));
+  seen["outcome"] = "working";  // the coordinator never got all of it
+  EXPECT_FALSE(judge(summary, seen).good);
+}
+
 TEST(RenderSummary, shows_helmets_hashes_and_errors) {
   const std::string table =
       render_summary(make_summary(two_helmets("abc1", "abc1"), coordinator("abc1"), 1.0));

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace lifeline {
@@ -58,7 +59,7 @@ Rows picture(const OccupancyGrid& grid, CellIndex corner, std::size_t columns, s
 void expect_occupancy(const Rows& from, const Rows& expected) {
   // Within a tile, across four tiles, and far in the negative.
   for (const CellIndex corner : {CellIndex{10, 10}, CellIndex{-3, -2}, CellIndex{-1025, 700}}) {
-    const OccupancyGrid grid = to_occupancy(tsd(from, corner));
+    const OccupancyGrid grid = to_occupancy(tsd(from, corner)).value();
     EXPECT_EQ(picture(grid, corner, from[0].size(), from.size()), expected)
         << "at cell " << corner.x << ", " << corner.y;
   }
@@ -112,7 +113,7 @@ TEST(Occupancy, TheUnknownIsNoSurface) {
 }
 
 TEST(Occupancy, TheGridCoversWholeTilesInTheMapsFrame) {
-  const OccupancyGrid grid = to_occupancy(tsd({"+"}, {-1, 64}));
+  const OccupancyGrid grid = to_occupancy(tsd({"+"}, {-1, 64})).value();
   EXPECT_EQ(grid.columns, 64);
   EXPECT_EQ(grid.rows, 64);
   EXPECT_NEAR(grid.origin_m.x(), -3.2, 1e-12);
@@ -124,9 +125,28 @@ TEST(Occupancy, TheGridCoversWholeTilesInTheMapsFrame) {
 }
 
 TEST(Occupancy, AnEmptyMapIsAnEmptyGrid) {
-  const OccupancyGrid grid = to_occupancy(TsdGrid());
+  const OccupancyGrid grid = to_occupancy(TsdGrid()).value();
   EXPECT_EQ(grid.columns, 0);
   EXPECT_EQ(known_cells(grid), 0U);
+}
+
+TEST(Occupancy, TilesTooFarApartMakeNoGridButAreCounted) {
+  TsdGrid apart = tsd({"+f-"}, {0, 0});
+  const TsdCell free{TsdCell::kTsdOne, TsdCell::kWeightOne};
+  apart.at({kMaxTileIndex - 1, 0})[0] = free;
+  EXPECT_EQ(to_occupancy(apart).error().code, ErrorCode::unsupported);
+  EXPECT_THAT(to_occupancy(apart).error().text, testing::HasSubstr("32768 x 64 cells"));
+  EXPECT_EQ(known_cells(apart), 4U);
+
+  TsdGrid square = tsd({"+f-"}, {0, 0});  // each side would do, both do not
+  square.at({200, 200})[0] = free;
+  EXPECT_EQ(to_occupancy(square).error().code, ErrorCode::unsupported);
+}
+
+TEST(Occupancy, AMapCountsWhatItsGridCounts) {
+  const TsdGrid map = tsd({"++f-f+", " 0 -+ ", "------"}, {-3, 62});
+  EXPECT_EQ(known_cells(map), known_cells(to_occupancy(map).value()));
+  EXPECT_GT(known_cells(map), 0U);
 }
 
 }  // namespace
