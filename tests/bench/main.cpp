@@ -9,13 +9,17 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/slam/slam_bench.hpp"
+
 namespace {
 
 /// Takes what follows the benchmark's name; answers the exit status: 0 all bars hold, 1 one does
 /// not or something failed, 2 wrong use.
 using Bench = int (*)(std::span<const char* const> arguments);
 
-const std::map<std::string_view, Bench> kBenches{};
+const std::map<std::string_view, Bench> kBenches{
+    {"slam", lifeline::bench::run_slam_bench},
+};
 
 }  // namespace
 
