@@ -83,6 +83,10 @@ std::vector<LogCase> log_cases(const path& data) {
                    .bar = 0.025,
                    .reference = "best peer 0.034",
                    .truth = data / "bags/jackal_mocap_a/mocap.tum"});
+  cases.push_back({.name = "mines-exp1, no prior",
+                   .source = "columns:" + (data / "scans10hz/mines-exp1.dat.gz").string(),
+                   .measure = Measure::failures,
+                   .bar = 0.0});
   for (const char* name : {"jackal_mocap_static", "static_varbeams", "urg_room_ros1"}) {
     cases.push_back({.name = fmt::format("{}, no prior", name),
                      .source = bag(name),
