@@ -252,8 +252,8 @@ TEST(SimulatedSource, RefusesPlansThatAreNotThere) {
   EXPECT_EQ(open_error("sim:castle").code, ErrorCode::wrong_use);
   EXPECT_THAT(open_error("sim:castle").text, HasSubstr("no plan 'castle'"));
 
-  EXPECT_EQ(open_error("sim:map.png").code, ErrorCode::unsupported);
-  EXPECT_THAT(open_error("sim:map.png").text, HasSubstr("HouseExpo"));
+  EXPECT_EQ(open_error("sim:map.png").code, ErrorCode::not_found);
+  EXPECT_EQ(open_error("sim:map.pgm").code, ErrorCode::wrong_use);
 }
 
 TEST(SimulatedSource, RefusesPlansThatNobodyCanWalkIn) {
