@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "agents/sources/line_reader.hpp"
+#include "common/base/check.hpp"
 
 namespace lifeline::bench {
 namespace {
@@ -21,6 +27,18 @@ struct TimedPose {
 
 void sort_by_time(std::vector<TimedPose>& poses) {
   std::ranges::stable_sort(poses, {}, &TimedPose::t_s);
+}
+
+/// The double nearest to the stamp's decimal seconds, as reading them from text gives it: relations
+/// begin at the very times of scans, so one last bit decides which scan carries a pose there.
+double nearest_seconds(Timestamp stamp) {
+  const std::int64_t nanoseconds = stamp.time_since_epoch().count();
+  LIFELINE_CHECK(nanoseconds >= 0);
+  const std::string text =
+      fmt::format("{}.{:09}", nanoseconds / 1'000'000'000, nanoseconds % 1'000'000'000);
+  double seconds = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), seconds);
+  return seconds;
 }
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -140,7 +158,7 @@ Result<RelationsError> relations_error(std::span<const StampedPose> estimate,
   if (!wheels) return forward_error(wheels);
   std::vector<TimedPose> poses;
   for (const StampedPose& pose : estimate) {
-    poses.push_back({to_seconds(pose.stamp.time_since_epoch()), pose.pose});
+    poses.push_back({nearest_seconds(pose.stamp), pose.pose});
   }
   sort_by_time(poses);
   RelationsError error;

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "agents/sources/open_source.hpp"
 #include "common/files/tum.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -112,12 +113,15 @@ TEST_F(RelationsErrorTest, AgreesWithTheSharedEvaluatorOnIntel) {
   const std::filesystem::path shared = LIFELINE_SOURCE_DIR "/../shared";
   const auto log = shared / "data/carmen/intel-rawodom.log.gz";
   if (!std::filesystem::exists(log)) GTEST_SKIP() << "the shared data are not here";
-  // A wrong trajectory with gaps: half a spiral over the log's time, every 25 s.
+  // A wrong trajectory at the scans' own times, with a gap: a spiral.
   std::vector<StampedPose> spiral;
-  for (int i = 0; i < 100; ++i) {
+  const auto source = sources::open_source("carmen:" + log.string()).value();
+  for (int i = 0; i < 900; ++i) {
+    const auto scan = source->next().value();
     const double turn = 0.05 * i;
-    spiral.push_back(pose(976052897.0 + 25.0 * i,
-                          {turn * std::cos(turn), turn * std::sin(turn), normalise_angle(turn)}));
+    if (i > 400 && i < 430) continue;
+    spiral.push_back(
+        {scan->stamp, {turn * std::cos(turn), turn * std::sin(turn), normalise_angle(turn)}});
   }
   const auto file = folder_.path() / "spiral.tum";
   ASSERT_TRUE(files::write_tum(file, spiral).has_value());
