@@ -12,5 +12,8 @@ if [[ $# -eq 0 || " $names" != *" $1 "* ]]; then
   echo "lifeline bench: give the name of one of these: $names" >&2
   exit 2
 fi
+source deploy/phases.sh
 deploy/build.sh
+cmake --build --preset release -j "$(parallel_jobs)" --target lifeline-bench
+ln -sfn ../release/bin/lifeline-bench build/bin/lifeline-bench
 exec build/bin/lifeline-bench "$@"

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "agents/sources/carmen_source.hpp"
+#include "agents/sources/columns_source.hpp"
 #include "agents/sources/rosbag2_source.hpp"
 #include "agents/sources/simulator/simulated_source.hpp"
 #include "agents/sources/source_spec.hpp"
@@ -12,11 +13,12 @@ namespace {
 
 Result<std::unique_ptr<sensing::ScanSource>> open_kind(const SourceSpec& spec) {
   if (spec.kind == "carmen") return open_carmen_source(spec);
+  if (spec.kind == "columns") return open_columns_source(spec);
   if (spec.kind == "rosbag2") return open_rosbag2_source(spec);
   if (spec.kind == "sim") return open_simulated_source(spec);
   return fail(ErrorCode::wrong_use,
-              "source '{}:{}': unknown kind '{}'; there are: carmen, rosbag2, sim", spec.kind,
-              spec.target, spec.kind);
+              "source '{}:{}': unknown kind '{}'; there are: carmen, columns, rosbag2, sim",
+              spec.kind, spec.target, spec.kind);
 }
 
 }  // namespace

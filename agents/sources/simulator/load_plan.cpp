@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "agents/sources/simulator/houseexpo.hpp"
+#include "agents/sources/simulator/picture_plan.hpp"
 
 namespace lifeline::sources {
 
@@ -10,13 +11,11 @@ Result<FloorPlan> load_plan(const std::string& target, const OfficeOptions& offi
   if (target == "office") return generate_office(office);
   const std::filesystem::path path(target);
   if (path.extension() == ".json") return read_houseexpo(path);
-  if (path.extension() == ".png" || path.extension() == ".pgm") {
-    return fail(ErrorCode::unsupported,
-                "{}: plans from pictures are not supported; give a HouseExpo .json or 'office'",
-                target);
-  }
-  return fail(ErrorCode::wrong_use,
-              "sim: there is no plan '{}'; give 'office' or the path of a HouseExpo .json", target);
+  if (path.extension() == ".png") return read_picture_plan(path);
+  return fail(
+      ErrorCode::wrong_use,
+      "sim: there is no plan '{}'; give 'office' or the path of a HouseExpo .json or a .png",
+      target);
 }
 
 }  // namespace lifeline::sources

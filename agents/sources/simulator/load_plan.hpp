@@ -8,8 +8,8 @@
 
 namespace lifeline::sources {
 
-/// The plan that TARGET of `sim:TARGET` names: "office", made up from `office`, or a HouseExpo file
-/// (.json; `office` is then ignored). unsupported for other kinds of files.
+/// The plan that TARGET of `sim:TARGET` names: "office", made up from `office`, a HouseExpo file
+/// (.json) or a picture (.png); `office` is then ignored. wrong_use for anything else.
 [[nodiscard]] Result<FloorPlan> load_plan(const std::string& target, const OfficeOptions& office);
 
 }  // namespace lifeline::sources

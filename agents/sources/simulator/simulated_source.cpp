@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "agents/sources/simulator/doors.hpp"
 #include "agents/sources/simulator/draw.hpp"
 #include "agents/sources/simulator/free_space.hpp"
 #include "agents/sources/simulator/load_plan.hpp"
@@ -23,13 +25,21 @@ std::uint64_t sensor_seed(const WalkerNumber& number, std::uint64_t sensor) {
   return stir(stir(number.seed, static_cast<std::uint64_t>(number.walker)), sensor);
 }
 
+/// The doorways that doors hang in.
+std::vector<Doorway> doorways_of(const FloorPlan& plan, const FreeSpace& space, Doors::When when) {
+  if (when == Doors::When::never) return {};
+  return plan.doorways.empty() ? find_doorways(plan, space) : plan.doorways;
+}
+
 class SimulatedSource final : public sensing::ScanSource {
  public:
   SimulatedSource(const FloorPlan& plan, FreeSpace space, const SimulatorOptions& options)
       : options_(options),
         scene_(plan.walls),
         space_(std::move(space)),
-        walk_(space_, options.walker),
+        walk_(space_, options.walker, options.head),
+        doors_(doorways_of(plan, space_, options.doors), options.doors,
+               stir(options.walker.seed, 12)),  // one timetable for all walkers
         lidar_(options.lidar, sensor_seed(options.walker, 10)),
         ahrs_(sensor_seed(options.walker, 11)) {}
 
@@ -38,12 +48,16 @@ class SimulatedSource final : public sensing::ScanSource {
     if (options_.duration_s ? t_s >= *options_.duration_s : walk_.first_round_done()) {
       return std::optional<sensing::RawScan>();
     }
+    const HeadPose head = walk_.head_at(t_s);
+    doors_.advance(t_s, head.T_world_head.translation());
     sensing::RawScan scan = lidar_.sweep(
-        scene_, [this](double at_s) { return walk_.pose_at(at_s); }, t_s);
+        scene_, [this](double at_s) { return walk_.head_at(at_s); }, t_s, doors_.closed());
     scan.stamp = kStart + from_seconds(t_s);
     if (options_.ahrs) {
-      scan.attitude = ahrs_.measure(scan.T_world_head_truth->yaw_rad,
-                                    sweeps_ == 0 ? 0.0 : 1.0 / options_.lidar.turns_per_s);
+      const double dt_s = sweeps_ == 0 ? 0.0 : 1.0 / options_.lidar.turns_per_s;
+      scan.attitude = options_.head == Walk::Head::natural
+                          ? ahrs_.measure_leaning(head, dt_s)
+                          : ahrs_.measure(head.T_world_head.yaw_rad, dt_s);
     }
     ++sweeps_;
     return std::optional(std::move(scan));
@@ -54,6 +68,7 @@ class SimulatedSource final : public sensing::ScanSource {
   RayScene scene_;
   FreeSpace space_;
   Walk walk_;  // walks on space_
+  Doors doors_;
   SimulatedLidar lidar_;
   SimulatedAhrs ahrs_;
   std::int64_t sweeps_ = 0;

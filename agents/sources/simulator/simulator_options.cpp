@@ -38,6 +38,13 @@ class Reader {
   Result<void> status_;
 };
 
+void read_doors(const SourceSpec& spec, Reader& reader, Doors::When& doors) {
+  const auto when = spec.choice("doors", "off", {"off", "timetable", "beside"});
+  if (!reader.keep(when)) return;
+  if (*when == "timetable") doors = Doors::When::timetable;
+  if (*when == "beside") doors = Doors::When::beside;
+}
+
 }  // namespace
 
 Result<SimulatorOptions> read_simulator_options(const SourceSpec& spec) {
@@ -45,9 +52,9 @@ Result<SimulatorOptions> read_simulator_options(const SourceSpec& spec) {
   constexpr double kLeastDurationS = 0.001, kDayS = 86'400.0;
   SimulatorOptions options;
   Reader reader(spec);
-  reader.keep(
-      spec.allow_options({"seed", "width", "depth", "walk_seed", "walker", "walkers", "beams", "hz",
-                          "noise", "dropout", "sweep", "prior", "duration"}));
+  reader.keep(spec.allow_options({"seed", "width", "depth", "walk_seed", "walker", "walkers",
+                                  "beams", "hz", "noise", "dropout", "sweep", "prior", "duration",
+                                  "head", "ceiling", "doors"}));
   reader.integer("seed", options.office.seed, 0, kMostSeed);
   reader.number("width", options.office.width_m, OfficeOptions::kLeastSideM,
                 OfficeOptions::kLargestSideM);
@@ -64,6 +71,11 @@ Result<SimulatorOptions> read_simulator_options(const SourceSpec& spec) {
   reader.number("dropout", options.lidar.dropout_share, 0.0, 1.0);
   reader.either("sweep", options.lidar.takes_time, "off", "on");
   reader.either("prior", options.ahrs, "none", "ahrs");
+  bool natural = false;
+  reader.either("head", natural, "still", "natural");
+  if (natural) options.head = Walk::Head::natural;
+  reader.number("ceiling", options.lidar.ceiling_m, 2.0, 50.0);
+  read_doors(spec, reader, options.doors);
   if (spec.options.contains("duration")) {
     double duration_s = kDayS;
     reader.number("duration", duration_s, kLeastDurationS, kDayS);

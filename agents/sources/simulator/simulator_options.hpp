@@ -2,9 +2,11 @@
 
 #include <optional>
 
+#include "agents/sources/simulator/doors.hpp"
 #include "agents/sources/simulator/office.hpp"
 #include "agents/sources/simulator/sensors.hpp"
 #include "agents/sources/simulator/tour.hpp"
+#include "agents/sources/simulator/walk.hpp"
 #include "agents/sources/source_spec.hpp"
 #include "common/base/result.hpp"
 
@@ -12,9 +14,11 @@ namespace lifeline::sources {
 
 /// What the options of `sim:TARGET?options` say.
 struct SimulatorOptions {
-  OfficeOptions office;              ///< seed, width, depth
-  WalkerNumber walker;               ///< walk_seed (seed where it is not given), walker, walkers
-  LidarOptions lidar;                ///< beams, hz, noise, dropout, sweep
+  OfficeOptions office;  ///< seed, width, depth
+  WalkerNumber walker;   ///< walk_seed (seed where it is not given), walker, walkers
+  LidarOptions lidar;    ///< beams, hz, noise, dropout, sweep, ceiling
+  Walk::Head head = Walk::Head::still;
+  Doors::When doors = Doors::When::never;
   bool ahrs = true;                  ///< prior=ahrs|none
   std::optional<double> duration_s;  ///< duration; without it, the walk's first round
 };

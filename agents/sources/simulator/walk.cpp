@@ -26,7 +26,7 @@ double approach(double value, double target, double down, double up) {
 
 }  // namespace
 
-Walk::Walk(const FreeSpace& space, const WalkerNumber& number)
+Walk::Walk(const FreeSpace& space, const WalkerNumber& number, Head head)
     : space_(space),
       tour_(space, number),
       draw_(stir(stir(number.seed, 4), static_cast<std::uint64_t>(number.walker))),
@@ -35,10 +35,13 @@ Walk::Walk(const FreeSpace& space, const WalkerNumber& number)
       cruise_m_s_(draw_.between(1.0, WalkLimits::kSpeedMs)),
       heading_rad_(draw_.between(-kPi, kPi)) {
   begin_round();
-  before_ = now_ = head();
+  if (head == Head::natural) {
+    motion_.emplace(stir(stir(number.seed, 5), static_cast<std::uint64_t>(number.walker)));
+  }
+  before_ = now_ = this->head();
 }
 
-Pose2 Walk::pose_at(double t_s) {
+HeadPose Walk::head_at(double t_s) {
   while (static_cast<double>(steps_) * kStepS < t_s) {
     before_ = now_;
     step();
@@ -46,10 +49,11 @@ Pose2 Walk::pose_at(double t_s) {
     now_ = head();
   }
   const double share = std::clamp(t_s / kStepS - static_cast<double>(steps_ - 1), 0.0, 1.0);
-  return {
-      before_.x_m + share * (now_.x_m - before_.x_m),
-      before_.y_m + share * (now_.y_m - before_.y_m),
-      normalise_angle(before_.yaw_rad + share * normalise_angle(now_.yaw_rad - before_.yaw_rad))};
+  const Pose2 &from = before_.T_world_head, &to = now_.T_world_head;
+  return {{from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m),
+           normalise_angle(from.yaw_rad + share * normalise_angle(to.yaw_rad - from.yaw_rad))},
+          before_.roll_rad + share * (now_.roll_rad - before_.roll_rad),
+          before_.pitch_rad + share * (now_.pitch_rad - before_.pitch_rad)};
 }
 
 void Walk::begin_round() {
@@ -99,14 +103,16 @@ void Walk::step() {
   along_m_ = std::min(along_m_ + speed_m_s_ * kStepS, path_->length_m());
 }
 
-Pose2 Walk::head() const {
+HeadPose Walk::head() const {
   const Eigen::Vector2d p = path_->at(along_m_);
+  const double t_s = static_cast<double>(steps_) * kStepS;
   double yaw = heading_rad_;
   for (const Sway& sway : sways_) {
-    const double t_s = static_cast<double>(steps_) * kStepS;
     yaw += sway.amplitude_rad * std::sin(2.0 * kPi * t_s / sway.period_s + sway.phase_rad);
   }
-  return {p.x(), p.y(), normalise_angle(yaw)};
+  if (!motion_) return Pose2{p.x(), p.y(), normalise_angle(yaw)};
+  const HeadMotion::Lean lean = motion_->at(t_s, speed_m_s_ / cruise_m_s_);
+  return {{p.x(), p.y(), normalise_angle(yaw + lean.yaw_rad)}, lean.roll_rad, lean.pitch_rad};
 }
 
 }  // namespace lifeline::sources

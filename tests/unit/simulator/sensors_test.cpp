@@ -64,6 +64,30 @@ TEST(SimulatedLidar, BeamsEndOnTheWallsUnderTheScansOwnGeometry) {
   }
 }
 
+TEST(SimulatedLidar, ALeaningBeamEndsAtWallFloorOrCeilingWhicheverIsNearest) {
+  SimulatedLidar lidar(kPerfect, 1);
+  const auto ranges_m = [&](double roll, double pitch) {
+    const HeadPose head({5.0, 5.0, 0.0}, roll, pitch);
+    return lidar
+        .sweep(
+            RayScene(square().walls), [&](double) { return head; }, 0.0)
+        .ranges_m;
+  };
+  // 10 deg nose down: the walls ahead and behind are met at 5 m / cos.
+  const auto slight = ranges_m(0.0, 10.0 * kDegree);
+  EXPECT_NEAR(slight[2], 5.0 / std::cos(10.0 * kDegree), 1e-3);
+  EXPECT_NEAR(slight[0], 5.0 / std::cos(10.0 * kDegree), 1e-3);
+  EXPECT_NEAR(slight[1], 5.0, 1e-3);
+  // 30 deg: ahead the floor 1.7 m below comes first, behind the ceiling 1 m above.
+  const auto steep = ranges_m(0.0, 30.0 * kDegree);
+  EXPECT_NEAR(steep[2], 1.7 / std::sin(30.0 * kDegree), 1e-3);
+  EXPECT_NEAR(steep[0], 1.0 / std::sin(30.0 * kDegree), 1e-3);
+  // Leaning to the right (about x forward, positive): right goes down, left goes up.
+  const auto leant = ranges_m(30.0 * kDegree, 0.0);
+  EXPECT_NEAR(leant[1], 1.7 / std::sin(30.0 * kDegree), 1e-3);
+  EXPECT_NEAR(leant[3], 1.0 / std::sin(30.0 * kDegree), 1e-3);
+}
+
 TEST(SimulatedLidar, CarriesTheTruth) {
   const auto scan = sweep(kPerfect, {3.0, 4.0, 0.7});
   ASSERT_TRUE(scan.T_world_head_truth.has_value());

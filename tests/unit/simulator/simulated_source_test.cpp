@@ -10,6 +10,8 @@
 
 #include <gmock/gmock.h>
 
+#include "agents/sensing/head_projection.hpp"
+#include "common/base/quantile.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/simulator/simulated_plans.hpp"
 
@@ -106,6 +108,84 @@ TEST(SimulatedSource, WalkersOfOneBuildingSeeTheSameWalls) {
   }
 }
 
+/// Distance of every hit from the nearest wall, after the helmet's own projection.
+std::vector<double> hits_off_walls(const std::string& source,
+                                   const sensing::ProjectionConfig& config) {
+  const FloorPlan plan = load_plan(parse_source_spec(source).value()).value();
+  std::vector<double> off;
+  for (const auto& scan : support::scans_of(source)) {
+    for (const Beam2& beam : sensing::project_scan(scan, config).beams) {
+      if (beam.kind != BeamKind::hit) continue;
+      const Eigen::Vector2d p_world =
+          *scan.T_world_head_truth * Eigen::Vector2d(beam.x_m, beam.y_m);
+      double nearest = 1e3;
+      for (const auto& wall : plan.walls) nearest = std::min(nearest, distance_to(wall, p_world));
+      off.push_back(nearest);
+    }
+  }
+  return off;
+}
+
+constexpr sensing::ProjectionConfig kHeights{.sensor_height_m = 1.7, .ceiling_height_m = 2.7};
+
+TEST(SimulatedSource, WhatANoddingHeadSeesLiesOnTheWallsAfterProjection) {
+  const auto off = hits_off_walls(
+      "sim:office?head=natural&duration=40&hz=2&beams=120&noise=0&dropout=0", kHeights);
+  ASSERT_GT(off.size(), 5000U);
+  EXPECT_LT(quantile(off, 0.5), 0.01);
+  EXPECT_LT(quantile(off, 0.99), 0.06);  // 0.2 deg of tilt noise
+  EXPECT_LT(quantile(off, 0.999), 0.3);
+}
+
+TEST(SimulatedSource, ANoddingHeadMeetsFloorAndCeilingWithinReach) {
+  int level_short = 0, leaning_short = 0;
+  for (const char* head : {"still", "natural"}) {
+    const std::string source = std::string("sim:office?width=40&duration=30&beams=90&head=") + head;
+    for (const auto& scan : support::scans_of(source)) {
+      const auto beams = sensing::project_scan(scan, kHeights).beams;
+      for (std::size_t i = 0; i < beams.size(); ++i) {
+        const bool cut = beams[i].kind == BeamKind::invalid && scan.ranges_m[i] > 0.0F &&
+                         std::isfinite(scan.ranges_m[i]);
+        (std::string(head) == "still" ? level_short : leaning_short) += cut ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(level_short, 0);
+  EXPECT_GT(leaning_short, 50);
+}
+
+TEST(SimulatedSource, TheHeadsAttitudeIsLevelUnlessItMoves) {
+  for (const auto& scan : support::scans_of("sim:office?duration=2&beams=8")) {
+    EXPECT_EQ(scan.attitude->pitch_rad, 0.0);
+    EXPECT_EQ(scan.attitude->roll_rad, 0.0);
+  }
+  double pitched = 0.0;
+  for (const auto& scan : support::scans_of("sim:office?duration=20&beams=8&head=natural")) {
+    pitched = std::max(pitched, std::abs(scan.attitude->pitch_rad));
+  }
+  EXPECT_GT(pitched, 0.07);
+}
+
+TEST(SimulatedSource, DoorsChangeWhatIsSeenAndNotTheWalk) {
+  const std::string source = "sim:office?duration=30&beams=200&noise=0&dropout=0";
+  const auto without = support::scans_of(source);
+  for (const char* doors : {"&doors=beside", "&doors=timetable"}) {
+    const auto with = support::scans_of(source + doors);
+    ASSERT_EQ(with.size(), without.size());
+    int changed = 0;
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      EXPECT_EQ(with[i].T_world_head_truth->x_m, without[i].T_world_head_truth->x_m);
+      EXPECT_EQ(with[i].attitude->yaw_rad, without[i].attitude->yaw_rad);
+      for (std::size_t k = 0; k < with[i].ranges_m.size(); ++k) {
+        EXPECT_LE(with[i].ranges_m[k], without[i].ranges_m[k]);  // a closed door only hides
+        changed += with[i].ranges_m[k] < without[i].ranges_m[k] ? 1 : 0;
+      }
+    }
+    EXPECT_GT(changed, 100) << doors;
+    EXPECT_TRUE(same_scans(with, support::scans_of(source + doors)));
+  }
+}
+
 TEST(SimulatedSource, WithoutAPriorThereIsNoAttitude) {
   for (const auto& scan : support::scans_of("sim:office?prior=none&duration=1&beams=8")) {
     EXPECT_FALSE(scan.attitude.has_value());
@@ -152,7 +232,8 @@ TEST(SimulatedSource, RefusesUnknownAndSenselessOptions) {
         "hz=0",        "hz=1e9",      "noise=-1",     "noise=2",       "dropout=2",
         "sweep=maybe", "prior=odom",  "seed=-1",      "seed=abc",      "walk_seed=-1",
         "walker=-1",   "walker=16",   "walkers=0",    "walkers=17",    "walkers=3&walker=3",
-        "width=5",     "depth=1000",  "speed=3",      "Duration=3"}) {
+        "head=bald",   "ceiling=1",   "doors=ajar",   "width=5",       "depth=1000",
+        "speed=3",     "Duration=3"}) {
     const Error error = open_error(std::string("sim:office?") + options);
     EXPECT_EQ(error.code, ErrorCode::wrong_use) << options;
     const std::string text(options);
@@ -171,8 +252,8 @@ TEST(SimulatedSource, RefusesPlansThatAreNotThere) {
   EXPECT_EQ(open_error("sim:castle").code, ErrorCode::wrong_use);
   EXPECT_THAT(open_error("sim:castle").text, HasSubstr("no plan 'castle'"));
 
-  EXPECT_EQ(open_error("sim:map.png").code, ErrorCode::unsupported);
-  EXPECT_THAT(open_error("sim:map.png").text, HasSubstr("HouseExpo"));
+  EXPECT_EQ(open_error("sim:map.png").code, ErrorCode::not_found);
+  EXPECT_EQ(open_error("sim:map.pgm").code, ErrorCode::wrong_use);
 }
 
 TEST(SimulatedSource, RefusesPlansThatNobodyCanWalkIn) {

@@ -1,0 +1,41 @@
+#include "agents/sources/simulator/head_motion.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "agents/sources/simulator/draw.hpp"
+
+namespace lifeline::sources {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kNoseDownRad = 2.0 * kDegree;  ///< people look at where they will tread
+
+}  // namespace
+
+HeadMotion::HeadMotion(std::uint64_t seed) {
+  Draw draw(seed);
+  const auto swing = [&](double amplitude_deg, double shortest_s, double longest_s) {
+    const double period_s = draw.between(shortest_s, longest_s);
+    return Swing{amplitude_deg * kDegree, period_s, draw.between(0.0, kTurn)};
+  };
+  nod_ = swing(1.5, 0.48, 0.54);
+  stride_ = nod_;
+  stride_.period_s *= 2.0;  // left and right foot
+  look_ = {swing(5.0, 5.0, 6.5), swing(3.0, 10.0, 13.0)};
+  lean_ = swing(2.5, 4.0, 5.5);
+  glance_ = {swing(10.0, 5.0, 6.0), swing(6.0, 3.1, 3.8)};
+}
+
+double HeadMotion::Swing::at(double t_s) const {
+  return amplitude_rad * std::sin(kTurn * t_s / period_s + phase_rad);
+}
+
+HeadMotion::Lean HeadMotion::at(double t_s, double pace) const {
+  return {.roll_rad = pace * stride_.at(t_s) + lean_.at(t_s),
+          .pitch_rad = kNoseDownRad + pace * nod_.at(t_s) + look_[0].at(t_s) + look_[1].at(t_s),
+          .yaw_rad = glance_[0].at(t_s) + glance_[1].at(t_s)};
+}
+
+}  // namespace lifeline::sources

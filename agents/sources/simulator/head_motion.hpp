@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "common/grid/pose2.hpp"
+
+namespace lifeline::sources {
+
+/// How a head is held in space: where it is and looks in the plane, and how it leans. Axes and
+/// signs as in sensing::Attitude: R_world_head = Rz(yaw) Ry(pitch) Rx(roll).
+struct HeadPose {
+  HeadPose() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a level head is just its pose in the plane
+  HeadPose(const Pose2& level) : T_world_head(level) {}
+  HeadPose(const Pose2& pose, double roll, double pitch)
+      : T_world_head(pose), roll_rad(roll), pitch_rad(pitch) {}
+
+  Pose2 T_world_head;
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+};
+
+/// How a walker's head moves on the body: it nods with every step (2 a second), rolls with every
+/// stride of two, looks up and down and leans slowly, and glances aside. Sums of sines that do not
+/// fit into each other: the same seed gives the same motion.
+class HeadMotion {
+ public:
+  /// Nothing is exceeded.
+  static constexpr double kMostPitchDeg = 12.0;
+  static constexpr double kMostRollDeg = 5.0;
+  static constexpr double kMostYawDeg = 16.0;
+  static constexpr double kMostYawRateDegS = 25.0;
+
+  /// Against the body.
+  struct Lean {
+    double roll_rad = 0.0;
+    double pitch_rad = 0.0;
+    double yaw_rad = 0.0;
+  };
+
+  explicit HeadMotion(std::uint64_t seed);
+
+  /// At `t_s` seconds; `pace` in [0, 1] is the share of full walking speed: steps shake the head
+  /// only of someone who walks.
+  [[nodiscard]] Lean at(double t_s, double pace) const;
+
+ private:
+  struct Swing {
+    double amplitude_rad, period_s, phase_rad;
+    [[nodiscard]] double at(double t_s) const;
+  };
+
+  Swing nod_, stride_;  // with the steps
+  std::array<Swing, 2> look_, glance_;
+  Swing lean_;
+};
+
+}  // namespace lifeline::sources

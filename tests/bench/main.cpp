@@ -1,0 +1,41 @@
+// lifeline-bench NAME [OPTIONS]: runs one benchmark and judges its figures.
+
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "tests/bench/slam/slam_bench.hpp"
+
+namespace {
+
+/// Takes what follows the benchmark's name; answers the exit status: 0 all bars hold, 1 one does
+/// not or something failed, 2 wrong use.
+using Bench = int (*)(std::span<const char* const> arguments);
+
+const std::map<std::string_view, Bench> kBenches{
+    {"slam", lifeline::bench::run_slam_bench},
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::span<const char* const> arguments(argv, static_cast<std::size_t>(argc));
+  const auto bench = argc > 1 ? kBenches.find(arguments[1]) : kBenches.end();
+  if (bench == kBenches.end()) {
+    std::string names;
+    for (const auto& [name, run] : kBenches) names += " " + std::string(name);
+    fmt::print(stderr, "lifeline bench: give the name of one of these:{}\n", names);
+    return 2;
+  }
+  try {
+    return bench->second(arguments.subspan(2));
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "lifeline bench: {}\n", problem.what());
+    return 1;
+  }
+}
