@@ -52,13 +52,12 @@ void HelmetMapper::step(const sensing::RawScan& raw) {
 
 void HelmetMapper::note_step(const sensing::RawScan& raw, const Scan2& scan,
                              const slam::SlamStep& step) {
-  if (!trajectory_.empty()) {
-    const auto& last = trajectory_.back();
-    const double elapsed_s = to_seconds(raw.stamp - last.stamp);
-    const double moved_m = (step.T_map_head.translation() - last.pose.translation()).norm();
+  if (last_) {
+    const double elapsed_s = to_seconds(raw.stamp - last_->stamp);
+    const double moved_m = (step.T_map_head.translation() - last_->pose.translation()).norm();
     state_.speed_m_s = elapsed_s > 0.0 ? moved_m / elapsed_s : 0.0;
   }
-  trajectory_.push_back({raw.stamp, step.T_map_head});
+  last_ = StampedPose{raw.stamp, step.T_map_head};
   if (raw.T_world_head_truth) truth_.push_back({raw.stamp, *raw.T_world_head_truth});
   state_.state = state_of(step);
   state_.T_map_head = step.T_map_head;
@@ -73,11 +72,19 @@ void HelmetMapper::apply(const sharing::PeerUpdate& peers) {
   for (const auto& [tile, cells] : peers.tiles) slam_.set_peer_tile(tile, cells);
 }
 
+std::optional<slam::LoopCloser> HelmetMapper::loop_closer() const {
+  if (config_.matcher != slam::Matcher::direct) return std::nullopt;
+  return slam::LoopCloser(config_.loops, slam_.layer().geometry(), config_.push, config_.tracker,
+                          config_.direct, config_.search);
+}
+
 sharing::MapTiles HelmetMapper::take_changed_tiles() {
+  static const TsdTile kUnknown{};  // what a correction took away altogether
   sharing::MapTiles tiles;
   for (const TileIndex tile : changed_) {
     const TsdTile* cells = slam_.layer().find(tile);
-    tiles.emplace_back(tile, std::make_shared<const QuantisedTile>(quantise(*cells)));
+    tiles.emplace_back(tile, std::make_shared<const QuantisedTile>(
+                                 quantise(cells == nullptr ? kUnknown : *cells)));
   }
   changed_.clear();
   return tiles;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "agents/sensing/head_projection.hpp"
 #include "agents/sharing/helmet_sharing.hpp"
+#include "agents/slam/loop_closer.hpp"
 #include "agents/slam/tsd_slam.hpp"
 #include "common/grid/stamped_pose.hpp"
 
@@ -17,11 +19,19 @@ namespace lifeline {
 class HelmetMapper {
  public:
   HelmetMapper(slam::SlamConfig slam, GridGeometry geometry, sensing::ProjectionConfig projection)
-      : slam_(slam, geometry), projection_(projection) {}
+      : config_(std::move(slam)), slam_(config_, geometry), projection_(projection) {}
 
   void step(const sensing::RawScan& raw);
   /// What changed in the peers' part of the working map.
   void apply(const sharing::PeerUpdate& peers);
+
+  /// What closes this map's loops; nothing for the paper's matchers, which know no loops.
+  [[nodiscard]] std::optional<slam::LoopCloser> loop_closer() const;
+  [[nodiscard]] std::vector<slam::Keyframe> take_keyframes() { return slam_.take_keyframes(); }
+  /// Takes over a corrected past; one that comes too late is left out.
+  void apply(slam::MapCorrection correction) { slam_.apply(std::move(correction)); }
+  /// No more scans will come.
+  void finish() { slam_.settle_all(); }
 
   /// Whether the lidar talks, as whoever reads it sees it.
   void set_lidar_health(wire::SensorHealth health) { state_.lidar = health; }
@@ -31,8 +41,8 @@ class HelmetMapper {
   [[nodiscard]] sharing::HelmetState state() const;
 
   [[nodiscard]] const TsdGrid& layer() const { return slam_.layer(); }
-  /// T_map_head of every scan.
-  [[nodiscard]] const std::vector<StampedPose>& trajectory() const { return trajectory_; }
+  /// T_map_head of every scan, as last corrected; the last few come with finish().
+  [[nodiscard]] std::vector<StampedPose> trajectory() const { return slam_.trajectory(); }
   /// T_world_head of every scan whose source knows it; for judging only.
   [[nodiscard]] const std::vector<StampedPose>& truth() const { return truth_; }
   /// Time of each whole step, in the order of scans.
@@ -41,10 +51,11 @@ class HelmetMapper {
  private:
   void note_step(const sensing::RawScan& raw, const Scan2& scan, const slam::SlamStep& step);
 
+  slam::SlamConfig config_;
   slam::TsdSlam slam_;
   sensing::ProjectionConfig projection_;
   sensing::MotionTracker motion_;
-  std::vector<StampedPose> trajectory_;
+  std::optional<StampedPose> last_;
   std::vector<StampedPose> truth_;
   std::vector<double> step_ms_;
   std::set<TileIndex> changed_;

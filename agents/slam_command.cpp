@@ -49,10 +49,12 @@ double peak_rss_mb() {
 
 /// What a helmet does beside the steps: looks for loops and corrects the past. Here it is done at
 /// once, so that the same input gives the same output.
-void correct(slam::LoopCloser& closer, slam::TsdSlam& slam, SlamRun& run) {
+void correct(std::optional<slam::LoopCloser>& closer, slam::TsdSlam& slam, SlamRun& run) {
+  std::vector<slam::Keyframe> keyframes = slam.take_keyframes();
+  if (!closer) return;
   const auto started = std::chrono::steady_clock::now();
-  for (slam::Keyframe& keyframe : slam.take_keyframes()) {
-    if (auto correction = closer.add(std::move(keyframe))) {
+  for (slam::Keyframe& keyframe : keyframes) {
+    if (auto correction = closer->add(std::move(keyframe))) {
       run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
     }
   }
@@ -61,7 +63,7 @@ void correct(slam::LoopCloser& closer, slam::TsdSlam& slam, SlamRun& run) {
 }
 
 Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfig& projection,
-                     slam::TsdSlam& slam, slam::LoopCloser& closer) {
+                     slam::TsdSlam& slam, std::optional<slam::LoopCloser>& closer) {
   SlamRun run;
   sensing::MotionTracker motion;
   for (;;) {
@@ -85,11 +87,13 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
   }
   slam.settle_all();
   correct(closer, slam, run);
-  if (auto correction = closer.finish()) {
-    run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
+  if (closer) {
+    if (auto correction = closer->finish()) {
+      run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
+    }
   }
   run.trajectory = slam.trajectory();
-  run.loops = closer.loops();
+  run.loops = closer ? closer->loops() : 0;
   return run;
 }
 
@@ -160,8 +164,12 @@ Result<void> run_slam(const SlamCommandOptions& options) {
   const auto source = sources::open_source(options.source);
   if (!source) return forward_error(source);
   slam::TsdSlam slam(settings.slam, settings.geometry);
-  slam::LoopCloser closer({}, settings.geometry, settings.slam.push, settings.slam.tracker,
-                          settings.slam.direct, settings.slam.search);
+  // The paper's matchers know no loops.
+  std::optional<slam::LoopCloser> closer;
+  if (settings.slam.matcher == slam::Matcher::direct) {
+    closer.emplace(settings.slam.loops, settings.geometry, settings.slam.push,
+                   settings.slam.tracker, settings.slam.direct, settings.slam.search);
+  }
   const auto run = play(**source, settings.projection, slam, closer);
   if (!run) return forward_error(run);
   if (auto written = write_all(options, *config, slam.layer(), *run); !written) return written;

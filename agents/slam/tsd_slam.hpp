@@ -7,6 +7,7 @@
 #include "agents/slam/failure_detector.hpp"
 #include "agents/slam/gicp_matcher.hpp"
 #include "agents/slam/keyframe_log.hpp"
+#include "agents/slam/loop_closer.hpp"
 #include "agents/slam/map_tracker.hpp"
 #include "agents/slam/model_matcher.hpp"
 #include "agents/slam/motion_model.hpp"
@@ -44,6 +45,7 @@ struct SlamConfig {
   double push_turn_rad = 0.03;    ///< ... or turned this much ...
   double push_interval_s = 0.25;  ///< ... or this time went by since the last push
   KeyframeConfig keyframes;
+  LoopConfig loops;
   StoryConfig stories;
 };
 

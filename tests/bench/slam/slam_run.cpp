@@ -94,7 +94,9 @@ Result<void> draw_run(const std::filesystem::path& picture, const SlamOutcome& r
     paths.push_back({"truth", points(run.truth, error->T_truth_estimate.inverse()), 1});
   }
   paths.push_back({"helmet", points(run.trajectory, {}), 0});
-  return files::write_map_picture(picture, to_occupancy(map->grid), paths, title);
+  const auto occupancy = to_occupancy(map->grid);
+  if (!occupancy) return forward_error(occupancy);
+  return files::write_map_picture(picture, *occupancy, paths, title);
 }
 
 }  // namespace lifeline::bench

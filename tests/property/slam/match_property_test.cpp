@@ -53,7 +53,7 @@ TEST_P(MatchProperty, ARandomMotionIsRecovered) {
         0.25,
         0.1};
     const auto pieces = extract_surface(scan_of(small_flat(), truth, lidar, &random));
-    const MatchResult result = tracker.match(map, view, pieces, prediction);
+    const MatchResult result = tracker.match(map, view, pieces, prediction).front().match;
     EXPECT_EQ(result.verdict, Verdict::accepted);
     EXPECT_LT((result.T_map_head.translation() - truth.translation()).norm(), 0.015);
     EXPECT_LT(std::abs(normalise_angle(result.T_map_head.yaw_rad - truth.yaw_rad)), 0.006);

@@ -102,6 +102,10 @@ TEST(DirectMatcher, AnEmptyMapOrScanLeavesThePrediction) {
   EXPECT_EQ(matcher.agreement(view_of(flat_map()), prior.T_map_head), 0.0);
 }
 
+MatchResult best_of(const std::vector<ScoredMatch>& matches) {
+  return matches.front().match;
+}
+
 TEST(CorrelativeSearch, FindsThePlaceFarFromThePrediction) {
   const WorkingMap map = flat_map();
   CorrelativeSearch search({});
@@ -151,8 +155,9 @@ TEST(MapTracker, SearchesWhenThePredictionIsLooseAndFindsTheTruth) {
   const TsdView view = view_of(map);
   MapTracker tracker({}, {}, {});
   const Pose2 truth{0.3, 0.2, 0.4};
-  const MatchResult result = tracker.match(map, view, extract_surface(scan_of(small_flat(), truth)),
-                                           {truth * Pose2{0.6, -0.5, 0.2}, 0.4, 0.15});
+  const MatchResult result =
+      best_of(tracker.match(map, view, extract_surface(scan_of(small_flat(), truth)),
+                            {truth * Pose2{0.6, -0.5, 0.2}, 0.4, 0.15}));
   EXPECT_EQ(result.source, PoseSource::search);
   EXPECT_EQ(result.verdict, Verdict::accepted);
   EXPECT_LT(apart_m(result.T_map_head, truth), 0.01);
@@ -163,8 +168,8 @@ TEST(MapTracker, DoesNotSearchWhenThePredictionLeadsToAGoodMatch) {
   MapTracker tracker({}, {}, {});
   const Pose2 truth{0.3, 0.2, 0.4};
   const MatchResult result =
-      tracker.match(map, view_of(map), extract_surface(scan_of(small_flat(), truth)),
-                    {truth * Pose2{0.02, 0.01, 0.01}, 0.03, 0.02});
+      best_of(tracker.match(map, view_of(map), extract_surface(scan_of(small_flat(), truth)),
+                            {truth * Pose2{0.02, 0.01, 0.01}, 0.03, 0.02}));
   EXPECT_EQ(result.source, PoseSource::map);
   EXPECT_EQ(result.verdict, Verdict::accepted);
 }
@@ -174,16 +179,44 @@ TEST(MapTracker, RejectsASceneThatTheMapDoesNotShow) {
   FlatWorld other;
   other.add_box(-1.3, -0.9, 1.1, 1.7);
   MapTracker tracker({}, {}, {});
-  const MatchResult result =
-      tracker.match(map, view_of(map), extract_surface(scan_of(other, {})), {{}, 0.1, 0.05});
+  const MatchResult result = best_of(
+      tracker.match(map, view_of(map), extract_surface(scan_of(other, {})), {{}, 0.1, 0.05}));
   EXPECT_NE(result.verdict, Verdict::accepted);
+}
+
+TEST(MapTracker, NamesTheRivalOneDoorFurtherInACorridorOfEqualDoors) {
+  // Niches 0.6 m apart on one side of a corridor: one niche further, the scan fits nearly as well.
+  FlatWorld corridor;
+  for (int i = -12; i < 12; ++i) {
+    const double x = 0.6 * i;
+    corridor.add(x, 1.0, x + 0.3, 1.0).add(x + 0.3, 1.0, x + 0.3, 1.15);
+    corridor.add(x + 0.3, 1.15, x + 0.6, 1.15).add(x + 0.6, 1.15, x + 0.6, 1.0);
+  }
+  corridor.add(-7.2, -1.0, 7.2, -1.0);
+  WorkingMap map(kGeometry);
+  TsdUpdater updater(kGeometry, {});
+  for (const double x : {-2.0, 0.0, 2.0}) {
+    (void)updater.push(extract_surface(scan_of(corridor, {x, 0.0, 0.0})), {x, 0.0, 0.0}, 1.0,
+                       map.own());
+  }
+  MapTracker tracker({}, {}, {});
+  const auto matches =
+      tracker.match(map, view_of(map), extract_surface(scan_of(corridor, {0.1, 0.0, 0.0})),
+                    {{0.3, 0.0, 0.0}, 0.4, 0.02});
+  ASSERT_GT(matches.size(), 1U);
+  EXPECT_NEAR(matches[0].match.T_map_head.x_m, 0.1, 0.02);
+  EXPECT_NEAR(std::abs(matches[1].match.T_map_head.x_m - 0.1), 0.6, 0.05);
+  EXPECT_GE(matches[0].score, matches[1].score);
+  // The rival makes the place uncertain along the corridor.
+  EXPECT_GT(matches[0].match.evidence.covariance(0, 0),
+            4.0 * matches[0].match.evidence.covariance(1, 1));
 }
 
 TEST(MapTracker, RejectsWhereTheMapKnowsNothing) {
   const WorkingMap empty(kGeometry);
   MapTracker tracker({}, {}, {});
-  const MatchResult result = tracker.match(
-      empty, view_of(empty), extract_surface(scan_of(small_flat(), {})), {{}, 0.1, 0.05});
+  const MatchResult result = best_of(tracker.match(
+      empty, view_of(empty), extract_surface(scan_of(small_flat(), {})), {{}, 0.1, 0.05}));
   EXPECT_EQ(result.verdict, Verdict::rejected);
 }
 
