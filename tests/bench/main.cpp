@@ -9,13 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/merge/merge_bench.hpp"
+
 namespace {
 
 /// Takes what follows the benchmark's name; answers the exit status: 0 all bars hold, 1 one does
 /// not or something failed, 2 wrong use.
 using Bench = int (*)(std::span<const char* const> arguments);
 
-const std::map<std::string_view, Bench> kBenches{};
+const std::map<std::string_view, Bench> kBenches{{"merge", lifeline::bench::run_merge_bench}};
 
 }  // namespace
 
