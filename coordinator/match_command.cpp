@@ -51,7 +51,9 @@ nlohmann::ordered_json to_json(const matching::MatchCandidate& candidate) {
           {"acceptance_index", candidate.acceptance_index},
           {"agreeing_wall_m", candidate.agreeing_wall_m},
           {"wall_agreement", candidate.wall_agreement},
-          {"conflict", candidate.conflict}};
+          {"conflict", candidate.conflict},
+          {"longest_conflict_m", candidate.longest_conflict_m},
+          {"constraint_m", candidate.constraint_m}};
 }
 
 std::string to_json(const matching::MatchResult& result) {
@@ -70,6 +72,7 @@ std::string to_json(const matching::MatchResult& result) {
                                 {"y_m", result.overlap_centre_b_m.y()}};
   }
   json["margin"] = result.margin;
+  if (result.control_score) json["control_score"] = *result.control_score;
   json["match_ms"] = result.match_ms;
   json["candidates"] = nlohmann::ordered_json::array();
   for (const auto& candidate : result.candidates) json["candidates"].push_back(to_json(candidate));

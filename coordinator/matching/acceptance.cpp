@@ -87,6 +87,12 @@ Judgement judge_oriented(const MatchResult& result, const MatchConfig& config) {
                     place(best.T_a_b), best.score, place(result.candidates[1].T_a_b),
                     result.candidates[1].score)};
   }
+  if (result.control_score && best.score < kLimits.min_control_ratio * *result.control_score) {
+    return {Verdict::wait,
+            fmt::format("a map's mirror image fits the other with {:.1f} m of wall, the map itself "
+                        "with {:.1f} m: too little to be no chance",
+                        *result.control_score, best.score)};
+  }
   if (best.constraint_m < kLimits.min_constraint_m) {
     return {Verdict::wait,
             fmt::format(

@@ -1,5 +1,7 @@
 #include "coordinator/matching/candidate.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Eigenvalues>
 
 #include "coordinator/matching/compare_walls.hpp"
@@ -36,6 +38,8 @@ MeasuredCandidate measure_candidate(const MapFeatures& a, const MapFeatures& b,
   candidate.agreeing_wall_m = agreeing;
   candidate.wall_agreement = judged > 0 ? agreeing / judged : 0.0;
   candidate.conflict = conflicting > 0 ? conflicting / (agreeing + conflicting) : 0.0;
+  candidate.longest_conflict_m = std::max(longest_conflict_m(b.walls, T_a_b_local, a),
+                                          longest_conflict_m(a.walls, T_a_b_local.inverse(), b));
   // How much wall stands across the direction in which the maps would slide most easily.
   const Eigen::Matrix2d spread = b_on_a.spread + a_on_b.spread;
   candidate.constraint_m =

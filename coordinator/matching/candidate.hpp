@@ -8,7 +8,7 @@
 namespace lifeline::matching {
 
 /// A metre of wall in the other map's free space speaks against a match more than a metre of
-/// agreeing wall speaks for it: right matches have next to none of it (docs/matching.md).
+/// agreeing wall speaks for it: right matches have next to none of it (docs/decisions/0301).
 inline constexpr double kConflictWeight = 4.0;
 
 /// A candidate with all its figures, and where its agreement lies.

@@ -35,4 +35,9 @@ inline constexpr WallGate kFineGate{0.10F, 0.88F};
 [[nodiscard]] WallFigures compare_walls(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
                                         const MapFeatures& a, const WallGate& gate);
 
+/// The wall of b that lies in a's clear space, as connected pieces (gaps up to about 0.3 m): the
+/// length of the longest, in metres.
+[[nodiscard]] double longest_conflict_m(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
+                                        const MapFeatures& a);
+
 }  // namespace lifeline::matching

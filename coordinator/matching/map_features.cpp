@@ -50,12 +50,40 @@ Result<MapFeatures> complete(const OccupancyGrid& cropped, const std::vector<Wal
   return features;
 }
 
+OccupancyGrid mirrored(const OccupancyGrid& grid) {
+  OccupancyGrid mirror = grid;
+  for (int row = 0; row < grid.rows; ++row) {
+    const auto first = mirror.cells.begin() + static_cast<std::ptrdiff_t>(grid.index(0, row));
+    std::reverse(first, first + grid.columns);
+  }
+  return mirror;
+}
+
+std::vector<WallPoint> mirrored(std::vector<WallPoint> walls, const OccupancyGrid& grid) {
+  const auto width_m = static_cast<float>(grid.columns * grid.cell_size_m);
+  for (WallPoint& wall : walls) {
+    wall.p.x() = width_m - wall.p.x();
+    wall.normal.x() = -wall.normal.x();
+  }
+  return walls;
+}
+
+Result<MapFeatures> complete_with_mirror(const OccupancyGrid& cropped,
+                                         const std::vector<WallPoint>& dense) {
+  auto features = complete(cropped, dense);
+  if (!features) return features;
+  auto mirror = complete(mirrored(cropped), mirrored(dense, cropped));
+  if (!mirror) return mirror;
+  features->mirror = std::make_shared<const MapFeatures>(*std::move(mirror));
+  return features;
+}
+
 }  // namespace
 
 Result<MapFeatures> build_features(const OccupancyGrid& grid) {
   if (const auto checked = check_size(grid); !checked) return forward_error(checked);
   const OccupancyGrid cropped = crop_to_known(grid, kWallMargin);
-  return complete(cropped, wall_points(cropped));
+  return complete_with_mirror(cropped, wall_points(cropped));
 }
 
 Result<MapFeatures> build_features(const TsdGrid& tsd) {
@@ -63,7 +91,7 @@ Result<MapFeatures> build_features(const TsdGrid& tsd) {
   if (!grid) return forward_error(grid);
   if (const auto checked = check_size(*grid); !checked) return forward_error(checked);
   const OccupancyGrid cropped = crop_to_known(*grid, kWallMargin);
-  return complete(cropped, wall_points(tsd, cropped.origin_m));
+  return complete_with_mirror(cropped, wall_points(tsd, cropped.origin_m));
 }
 
 }  // namespace lifeline::matching

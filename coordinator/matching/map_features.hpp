@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,6 +29,9 @@ struct MapFeatures {
   Spectrum oriented;                ///< oriented Hough spectrum of `walls`
   double wall_m = 0.0;              ///< length of all walls
   double known_m2 = 0.0;
+  /// The same map in a mirror: no building, but one of the same style. How well another map fits on
+  /// it tells what chance gives. Has no mirror itself.
+  std::shared_ptr<const MapFeatures> mirror;
 };
 
 /// One point of `walls` and of `skeleton` stands for about so much wall.

@@ -73,6 +73,12 @@ MatchResult match_maps(const MapFeatures& a, const MapFeatures& b, const MatchCo
     result = in_order ? search(a, b, config) : search(b, a, config);
     if (!in_order) swap_roles(result);
     judge(a, b, config, result);
+    if (result.accepted() && config.method == Method::oriented) {
+      // Costs as much as the match: asked only of what is about to be believed.
+      result.control_score =
+          in_order ? best_score(a, *b.mirror, config) : best_score(b, *a.mirror, config);
+      judge(a, b, config, result);
+    }
   }
   result.match_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

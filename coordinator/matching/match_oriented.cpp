@@ -1,5 +1,6 @@
 #include "coordinator/matching/match_oriented.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <vector>
@@ -101,6 +102,12 @@ MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b, const Mat
     result.candidates.push_back(measured.candidate);
   }
   return result;
+}
+
+double best_score(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config) {
+  std::vector<Hypothesis> hypotheses = search(a, b, config.rotation_candidates);
+  refine_all(a, b, hypotheses);
+  return hypotheses.empty() ? 0.0 : std::max(0.0, hypotheses.front().score);
 }
 
 }  // namespace lifeline::matching

@@ -11,4 +11,8 @@ namespace lifeline::matching {
 [[nodiscard]] MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b,
                                          const MatchConfig& config);
 
+/// The score of the best place at which b lies on a: of b's mirror image, what chance gives.
+[[nodiscard]] double best_score(const MapFeatures& a, const MapFeatures& b,
+                                const MatchConfig& config);
+
 }  // namespace lifeline::matching

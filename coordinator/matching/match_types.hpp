@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,11 @@ struct MatchCandidate {
   double agreeing_wall_m = 0.0;   ///< length of wall that both maps saw, facing the same way
   double wall_agreement = 0.0;    ///< share of the wall in jointly seen area that agrees, 0 to 1
   double conflict = 0.0;          ///< share of that wall which stands in the other map's free space
-  double constraint_m = 0.0;      ///< agreeing wall across the worst fixed direction of sliding
-  double score = 0.0;             ///< agreeing less contradicting wall, in metres
+  /// The longest connected piece of contradicting wall: furniture and doors that moved are short,
+  /// walls of another building are not.
+  double longest_conflict_m = 0.0;
+  double constraint_m = 0.0;  ///< agreeing wall across the worst fixed direction of sliding
+  double score = 0.0;         ///< agreeing less contradicting wall, in metres
 };
 
 enum class Verdict {
@@ -55,6 +59,9 @@ struct MatchResult {
   std::vector<MatchCandidate> candidates;
   double margin =
       0.0;  ///< 1 - score of the second hypothesis / score of the best; 1 with no second
+  /// Score of the best place of b's mirror image on a, where that was asked for: what walls of this
+  /// style give by chance.
+  std::optional<double> control_score;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the best T_a_b: x_m, y_m, yaw_rad
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< middle of the agreeing wall, in b's frame
   double match_ms = 0.0;                         ///< time of match_maps alone

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/merge/merge_bench.hpp"
 #include "tests/bench/slam/slam_bench.hpp"
 
 namespace {
@@ -18,6 +19,7 @@ namespace {
 using Bench = int (*)(std::span<const char* const> arguments);
 
 const std::map<std::string_view, Bench> kBenches{
+    {"merge", lifeline::bench::run_merge_bench},
     {"slam", lifeline::bench::run_slam_bench},
 };
 

@@ -114,6 +114,56 @@ TEST_F(MatchMapsTest, TheMirrorImageIsNotAccepted) {
   EXPECT_FALSE(result.accepted()) << result.reason;
 }
 
+TEST_F(MatchMapsTest, AnAcceptedMatchBeatsTheMirrorImageTwice) {
+  const MatchResult result = match_maps(a_, b_, {});
+  ASSERT_TRUE(result.accepted()) << result.reason;
+  ASSERT_TRUE(result.control_score.has_value());
+  EXPECT_GT(result.candidates.front().score, 2.0 * *result.control_score);
+}
+
+TEST_F(MatchMapsTest, ASquareHallNamesPlacesAQuarterTurnApart) {
+  test::DrawnBuilding hall;
+  hall.add_room({-4.0, -4.0}, {4.0, 4.0});
+  const MatchResult result = match_maps(features(draw_map(hall, {0.5, 0.2, 0.4}, 14.0)),
+                                        features(draw_map(hall, {-0.5, 0.3, 1.0}, 14.0)), {});
+  EXPECT_EQ(result.verdict, Verdict::wait) << result.reason;
+  ASSERT_EQ(result.candidates.size(), 4U);
+  const double turn = normalise_angle(
+      4 * (result.candidates[0].T_a_b.yaw_rad - result.candidates[1].T_a_b.yaw_rad));
+  EXPECT_NEAR(turn, 0.0, 8.0 * kDegree);
+}
+
+TEST_F(MatchMapsTest, ASymmetricFloorIsDecidedOnceAnUnevenPartIsSeen) {
+  test::DrawnBuilding hall;
+  hall.add_room({-8.0, -3.0}, {8.0, 3.0});
+  for (const auto& [low, high] : uneven_building().rooms) {
+    hall.add_room(low + Eigen::Vector2d(8.0, 0.0), high + Eigen::Vector2d(8.0, 0.0));
+  }
+  const Pose2 T_world_a{4.0, 0.2, 0.4}, T_world_b{5.0, 0.3, 1.0};
+  const MatchResult result = match_maps(features(draw_map(hall, T_world_a, 44.0)),
+                                        features(draw_map(hall, T_world_b, 44.0)), {});
+  ASSERT_TRUE(result.accepted()) << result.reason;
+  expect_close(result.candidates.front().T_a_b, T_world_a.inverse() * T_world_b, 0.05,
+               0.3 * kDegree);
+}
+
+TEST_F(MatchMapsTest, AMapOfOneCellHasNoWalls) {
+  OccupancyGrid cell;
+  cell.columns = cell.rows = 1;
+  cell.cells.assign(1, Occupancy::occupied);
+  const MatchResult result = match_maps(features(cell), b_, {});
+  EXPECT_EQ(result.verdict, Verdict::wait);
+  EXPECT_NE(result.reason.find("no walls"), std::string::npos);
+}
+
+TEST_F(MatchMapsTest, AnOriginThatIsNoNumberIsRefused) {
+  OccupancyGrid grid = draw_map(uneven_building(), T_world_a_, 24.0);
+  grid.origin_m.x() = std::nan("");
+  const auto built = build_features(grid);
+  ASSERT_FALSE(built);
+  EXPECT_NE(built.error().text.find("origin"), std::string::npos);
+}
+
 TEST_F(MatchMapsTest, MapsWithoutWallsWaitAndSaySo) {
   OccupancyGrid unknown;
   unknown.columns = unknown.rows = 50;

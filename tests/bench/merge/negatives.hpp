@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coordinator/matching/match_types.hpp"
+
+namespace lifeline::bench {
+
+/// What was asked of the matcher, and how often.
+struct NegativeKind {
+  std::string name;
+  std::size_t pairs = 0;
+  std::size_t accepted_wrong = 0;
+  std::size_t accepted_right = 0;  ///< where the maps do share a place and it was found
+};
+
+/// A wrong merge: enough to look at it again.
+struct FalseAccept {
+  std::string kind, a, b, reason;
+};
+
+struct NegativesOutcome {
+  std::vector<NegativeKind> kinds;
+  std::vector<FalseAccept> wrong;
+};
+
+/// Matches at least `pairs` pairs of simulated maps that tempt to a wrong merge: other plans, the
+/// mirror image of a plan, parts of one plan far from each other, symmetric halls, repeated rooms.
+/// Maps of one floor count as wrong only where they are merged 0.5 m or 2 deg or more off the
+/// truth. Plans: generated offices, and those in the folder of HouseExpo `plans` where it exists.
+/// The same numbers give the same pairs.
+[[nodiscard]] NegativesOutcome run_negatives(std::size_t pairs, const std::filesystem::path& plans,
+                                             const matching::MatchConfig& config);
+
+}  // namespace lifeline::bench
