@@ -1,5 +1,6 @@
 #include "agents/slam/loop_closer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,6 +23,13 @@ TrackerConfig strict(TrackerConfig tracker, const LoopConfig& loop) {
 
 double margin_of(const std::vector<ScoredMatch>& matches) {
   return matches.size() > 1 ? matches[0].score - matches[1].score : kRivalScore;
+}
+
+/// A lidar of half a circle came back the other way sees half of what it saw then.
+bool looks_behind(const std::vector<SurfacePiece>& pieces) {
+  const auto behind = std::count_if(pieces.begin(), pieces.end(),
+                                    [](const SurfacePiece& piece) { return piece.point.x() < 0; });
+  return static_cast<std::size_t>(behind) > pieces.size() / 5;
 }
 
 }  // namespace
@@ -55,6 +63,7 @@ std::optional<MapCorrection> LoopCloser::add(Keyframe keyframe) {
 std::optional<MapCorrection> LoopCloser::finish() {
   if (loops_ == 0) return std::nullopt;
   optimise(poses_, edges_, config_.graph);
+  if (!redrawn_ && !has_moved()) return std::nullopt;
   polish();
   TsdGrid layer = drawn_layer();
   return MapCorrection{poses_, std::move(layer)};
@@ -150,7 +159,13 @@ std::optional<GraphEdge> LoopCloser::measure(std::size_t old_index) {
   view.assign(place_, prediction.T_map_head.translation(), reach_of(recent) + 4.0);
   const auto matches = tracker_.match(place_, view, recent, prediction);
   const MatchResult& match = matches.front().match;
-  if (match.verdict != Verdict::accepted || margin_of(matches) < config_.min_margin) {
+  // Seen through a door, or from behind a thin wall, a place is not the same place.
+  const double share = looks_behind(unpacked(keyframes_.size() - 1))
+                           ? config_.min_known_share
+                           : config_.min_known_share_ahead;
+  const bool same_place = match.evidence.known >= share * match.evidence.points;
+  if (match.verdict != Verdict::accepted || !same_place ||
+      margin_of(matches) < config_.min_margin) {
     return std::nullopt;
   }
   const Pose2& T_map_old = poses_[old_index];
@@ -214,6 +229,7 @@ TsdGrid LoopCloser::drawn_layer() {
     (void)updater_.push(unpacked(i), poses_[i], 1.0, layer);
   }
   drawn_poses_ = poses_;
+  redrawn_ = true;
   return layer;
 }
 

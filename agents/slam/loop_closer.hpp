@@ -32,8 +32,10 @@ struct LoopConfig {
 
   double accept_share = 0.85;  ///< inliers among the points where the old map knows anything
   int min_known = 60;
-  double min_margin = 8.0;   ///< log-likelihood between the best place and the next
-  double noise_xy_m = 0.02;  ///< of a closed loop, beside what its points say
+  double min_known_share = 0.6;         ///< of the points, where the old map knows anything ...
+  double min_known_share_ahead = 0.45;  ///< ... of a lidar that does not look behind
+  double min_margin = 8.0;              ///< log-likelihood between the best place and the next
+  double noise_xy_m = 0.02;             ///< of a closed loop, beside what its points say
   double noise_yaw_rad = 0.003;
   double surprise_xy_m = 0.3;      ///< a loop that moves more than this ...
   double surprise_yaw_rad = 0.05;  ///< ... or turns more waits for a second one that agrees
@@ -41,8 +43,8 @@ struct LoopConfig {
   double agree_xy_m = 0.2;
   double agree_yaw_rad = 0.03;
 
-  double redraw_xy_m = 0.05;  ///< corrections below this leave the layer as it is
-  double redraw_yaw_rad = 0.005;
+  double redraw_xy_m = 0.06;  ///< corrections below this leave the layer as it is
+  double redraw_yaw_rad = 0.008;
   double polish_sigma_xy_m = 0.03;  ///< of a keyframe against the layer drawn anew
   double polish_sigma_yaw_rad = 0.006;
   double polish_max_m = 0.1;
@@ -100,6 +102,7 @@ class LoopCloser {
   double next_attempt_m_ = 0.0;
   double closed_at_m_ = 0.0;                        ///< path when the last loop was closed
   Eigen::Matrix3d lost_ = Eigen::Matrix3d::Zero();  ///< covariance of the lost steps since then
+  bool redrawn_ = false;
   std::size_t loops_ = 0;
   std::vector<SurfacePiece> scratch_;
 };
