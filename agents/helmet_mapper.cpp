@@ -46,6 +46,8 @@ void HelmetMapper::step(const sensing::RawScan& raw) {
   const Scan2 scan = sensing::project_scan(raw, projection_);
   const slam::SlamStep step = slam_.step(scan, motion_.next(raw));
   step_ms_.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
+  // Nobody closes loops in a running helmet yet (docs/decisions/0206).
+  (void)slam_.take_keyframes();
   for (const TileIndex tile : slam_.take_changed_tiles()) changed_.insert(tile);
   note_step(raw, scan, step);
 }
@@ -72,19 +74,11 @@ void HelmetMapper::apply(const sharing::PeerUpdate& peers) {
   for (const auto& [tile, cells] : peers.tiles) slam_.set_peer_tile(tile, cells);
 }
 
-std::optional<slam::LoopCloser> HelmetMapper::loop_closer() const {
-  if (config_.matcher != slam::Matcher::direct) return std::nullopt;
-  return slam::LoopCloser(config_.loops, slam_.layer().geometry(), config_.push, config_.tracker,
-                          config_.direct, config_.search);
-}
-
 sharing::MapTiles HelmetMapper::take_changed_tiles() {
-  static const TsdTile kUnknown{};  // what a correction took away altogether
   sharing::MapTiles tiles;
   for (const TileIndex tile : changed_) {
     const TsdTile* cells = slam_.layer().find(tile);
-    tiles.emplace_back(tile, std::make_shared<const QuantisedTile>(
-                                 quantise(cells == nullptr ? kUnknown : *cells)));
+    tiles.emplace_back(tile, std::make_shared<const QuantisedTile>(quantise(*cells)));
   }
   changed_.clear();
   return tiles;

@@ -8,7 +8,6 @@
 
 #include "agents/sensing/head_projection.hpp"
 #include "agents/sharing/helmet_sharing.hpp"
-#include "agents/slam/loop_closer.hpp"
 #include "agents/slam/tsd_slam.hpp"
 #include "common/grid/stamped_pose.hpp"
 
@@ -19,17 +18,12 @@ namespace lifeline {
 class HelmetMapper {
  public:
   HelmetMapper(slam::SlamConfig slam, GridGeometry geometry, sensing::ProjectionConfig projection)
-      : config_(std::move(slam)), slam_(config_, geometry), projection_(projection) {}
+      : slam_(with_one_story(std::move(slam)), geometry), projection_(projection) {}
 
   void step(const sensing::RawScan& raw);
   /// What changed in the peers' part of the working map.
   void apply(const sharing::PeerUpdate& peers);
 
-  /// What closes this map's loops; nothing for the paper's matchers, which know no loops.
-  [[nodiscard]] std::optional<slam::LoopCloser> loop_closer() const;
-  [[nodiscard]] std::vector<slam::Keyframe> take_keyframes() { return slam_.take_keyframes(); }
-  /// Takes over a corrected past; one that comes too late is left out.
-  void apply(slam::MapCorrection correction) { slam_.apply(std::move(correction)); }
   /// No more scans will come.
   void finish() { slam_.settle_all(); }
 
@@ -49,9 +43,13 @@ class HelmetMapper {
   [[nodiscard]] const std::vector<double>& step_ms() const { return step_ms_; }
 
  private:
+  /// Stories need the loops that are not closed here yet (docs/decisions/0205).
+  [[nodiscard]] static slam::SlamConfig with_one_story(slam::SlamConfig config) {
+    config.stories.max_stories = 1;
+    return config;
+  }
   void note_step(const sensing::RawScan& raw, const Scan2& scan, const slam::SlamStep& step);
 
-  slam::SlamConfig config_;
   slam::TsdSlam slam_;
   sensing::ProjectionConfig projection_;
   sensing::MotionTracker motion_;

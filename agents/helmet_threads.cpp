@@ -11,11 +11,6 @@ constexpr std::size_t kQueuedScans = 8;
 constexpr Duration kHandOverInterval = std::chrono::milliseconds(100);
 constexpr Duration kSilentAfter = std::chrono::milliseconds(500);
 
-std::unique_ptr<MapCorrector> corrector_for(const HelmetMapper& mapper) {
-  auto closer = mapper.loop_closer();
-  return closer ? std::make_unique<MapCorrector>(*std::move(closer)) : nullptr;
-}
-
 }  // namespace
 
 HelmetThreads::HelmetThreads(std::unique_ptr<sensing::ScanSource> source, Overflow overflow,
@@ -24,7 +19,6 @@ HelmetThreads::HelmetThreads(std::unique_ptr<sensing::ScanSource> source, Overfl
       mapper_(mapper),
       mailbox_(mailbox),
       scans_(kQueuedScans, overflow),
-      corrector_(corrector_for(mapper)),
       mapper_thread_([this] { map_scans(); }),
       source_thread_([this](const std::stop_token& stop) { read_source(stop); }) {}
 
@@ -66,7 +60,6 @@ void HelmetThreads::map_scans() {
     const SteadyTime now = std::chrono::steady_clock::now();
     if (scan) {
       mapper_.step(*scan);
-      exchange_corrections();
       last_scan = now;
     }
     mapper_.set_lidar_health(now - last_scan > kSilentAfter ? wire::SensorHealth::silent
@@ -76,18 +69,8 @@ void HelmetThreads::map_scans() {
     hand_over(false);
   }
   mapper_.finish();
-  exchange_corrections();
-  if (corrector_ != nullptr) corrector_->drain();
-  exchange_corrections();
   hand_over(true);
   finished_ = true;
-}
-
-void HelmetThreads::exchange_corrections() {
-  auto keyframes = mapper_.take_keyframes();
-  if (corrector_ == nullptr) return;
-  corrector_->put(std::move(keyframes));
-  if (auto correction = corrector_->take()) mapper_.apply(*std::move(correction));
 }
 
 void HelmetThreads::hand_over(bool finished) {

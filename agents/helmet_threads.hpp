@@ -8,14 +8,13 @@
 
 #include "agents/helmet_mapper.hpp"
 #include "agents/mailbox.hpp"
-#include "agents/map_corrector.hpp"
 #include "agents/sensing/scan_source.hpp"
 #include "common/base/bounded_queue.hpp"
 
 namespace lifeline {
 
-/// The threads that turn a source's scans into a map: one reads the source, one owns the mapper,
-/// one closes loops. They hand over through `mailbox`, which the sharing thread empties.
+/// The two threads that turn a source's scans into a map: one reads the source, one owns the
+/// mapper. They hand over through `mailbox`, which the sharing thread empties.
 class HelmetThreads {
  public:
   /// `overflow`: what happens to scans that come faster than they can be mapped. `mapper` belongs
@@ -37,14 +36,12 @@ class HelmetThreads {
  private:
   void read_source(const std::stop_token& stop);
   void map_scans();
-  void exchange_corrections();
   void hand_over(bool finished);
 
   std::unique_ptr<sensing::ScanSource> source_;
   HelmetMapper& mapper_;
   Mailbox& mailbox_;
   BoundedQueue<sensing::RawScan> scans_;
-  std::unique_ptr<MapCorrector> corrector_;  ///< none where the matcher knows no loops
   std::atomic<bool> finished_{false};
   mutable std::mutex error_mutex_;
   std::optional<Error> source_error_;
