@@ -85,11 +85,4 @@ void optimise(std::vector<Pose2>& poses, std::span<const GraphEdge> edges,
   }
 }
 
-double squared_misfit(const GraphEdge& edge, const Pose2& T_map_from, const Pose2& T_map_to) {
-  const Pose2 seen = T_map_from.inverse() * T_map_to;
-  const Eigen::Vector3d error(seen.x_m - edge.T_from_to.x_m, seen.y_m - edge.T_from_to.y_m,
-                              normalise_angle(seen.yaw_rad - edge.T_from_to.yaw_rad));
-  return error.dot(edge.covariance.inverse() * error);
-}
-
 }  // namespace lifeline::slam

@@ -29,8 +29,4 @@ struct GraphConfig {
 void optimise(std::vector<Pose2>& poses, std::span<const GraphEdge> edges,
               const GraphConfig& config);
 
-/// The part of an edge that its poses do not explain, in its standard deviations (squared).
-[[nodiscard]] double squared_misfit(const GraphEdge& edge, const Pose2& T_map_from,
-                                    const Pose2& T_map_to);
-
 }  // namespace lifeline::slam
