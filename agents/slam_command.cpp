@@ -35,6 +35,7 @@ struct SlamRun {
   int searches = 0;
   int pushed = 0;
   int undecided = 0;
+  int revisited = 0;
   std::size_t scans = 0;
   std::size_t loops = 0;
   int corrections = 0;
@@ -92,6 +93,7 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
       run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
     }
   }
+  run.revisited = slam.revisit();
   run.trajectory = slam.trajectory();
   run.loops = closer ? closer->loops() : 0;
   return run;
@@ -110,6 +112,7 @@ std::string to_json(const SlamRun& run, const std::string& matcher, const TsdGri
   json["searches"] = run.searches;
   json["pushed"] = run.pushed;
   json["undecided"] = run.undecided;
+  json["placed_later"] = run.revisited;
   json["loops"] = run.loops;
   json["corrections"] = run.corrections;
   json["longest_correction_ms"] = run.longest_correction_ms;
