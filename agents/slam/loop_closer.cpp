@@ -62,11 +62,11 @@ std::optional<MapCorrection> LoopCloser::add(Keyframe keyframe) {
 }
 
 std::optional<MapCorrection> LoopCloser::finish() {
-  if (loops_ == 0) return std::nullopt;
-  optimise(poses_, edges_, config_.graph);
-  if (!redrawn_ && !has_moved()) return std::nullopt;
-  for (int round = 0; round < config_.tie_rounds; ++round) tie_places();
-  polish();
+  if (loops_ > 0) optimise(poses_, edges_, config_.graph);
+  const bool corrected = redrawn_ || has_moved();
+  for (int round = 0; corrected && round < config_.tie_rounds; ++round) tie_places();
+  if (reconsider() == 0 && !corrected) return std::nullopt;
+  if (corrected) polish();
   TsdGrid layer = drawn_layer();
   return MapCorrection{poses_, std::move(layer)};
 }
@@ -162,9 +162,8 @@ std::optional<GraphEdge> LoopCloser::measure(std::size_t old_index, std::size_t 
   const auto matches = tracker_.match(place_, view, recent, prediction);
   const MatchResult& match = matches.front().match;
   // Seen through a door, or from behind a thin wall, a place is not the same place.
-  const double share = looks_behind(unpacked(now))
-                           ? config_.min_known_share
-                           : config_.min_known_share_ahead;
+  const double share =
+      looks_behind(unpacked(now)) ? config_.min_known_share : config_.min_known_share_ahead;
   const bool same_place = match.evidence.known >= share * match.evidence.points;
   if (match.verdict != Verdict::accepted || !same_place ||
       margin_of(matches) < config_.min_margin) {
@@ -173,8 +172,7 @@ std::optional<GraphEdge> LoopCloser::measure(std::size_t old_index, std::size_t 
   const Pose2& T_map_old = poses_[old_index];
   const Eigen::Matrix3d covariance = turn_covariance(match.evidence.covariance, T_map_old.yaw_rad) +
                                      diagonal_covariance(config_.noise_xy_m, config_.noise_yaw_rad);
-  return GraphEdge{old_index, now, T_map_old.inverse() * match.T_map_head,
-                   covariance, true};
+  return GraphEdge{old_index, now, T_map_old.inverse() * match.T_map_head, covariance, true};
 }
 
 bool LoopCloser::believe(const GraphEdge& edge) {
@@ -243,13 +241,67 @@ void LoopCloser::tie_places() {
     const auto old_index = old_place(now);
     if (!old_index) continue;
     next_m = path_m_[now] + config_.tie_path_m;
-    const auto tie = measure(*old_index, now,
-                             {poses_[now], config_.tie_sigma_xy_m, config_.tie_sigma_yaw_rad});
+    const auto tie =
+        measure(*old_index, now, {poses_[now], config_.tie_sigma_xy_m, config_.tie_sigma_yaw_rad});
     if (tie) ties.push_back(*tie);
   }
   std::erase_if(edges_, [](const GraphEdge& edge) { return edge.may_be_wrong; });
   edges_.insert(edges_.end(), ties.begin(), ties.end());
   optimise(poses_, edges_, config_.graph);
+}
+
+int LoopCloser::reconsider() {
+  place_.own() = drawn_layer();
+  std::vector<std::size_t> doubtful;
+  for (std::size_t i = 1; i < keyframes_.size(); ++i) {
+    if (is_doubtful(i)) doubtful.push_back(i);
+  }
+  int moved = 0;
+  for (const std::size_t i : doubtful) {
+    draw_others(i);
+    const Eigen::Matrix3d& step = keyframes_[i].step_covariance;
+    const Prediction here{poses_[i],
+                          std::max(config_.doubtful_sigma_xy_m, std::sqrt(step(0, 0) + step(1, 1))),
+                          std::max(config_.doubtful_yaw_rad, std::sqrt(step(2, 2)))};
+    const std::vector<SurfacePiece>& pieces = unpacked(i);
+    TsdView view;
+    view.assign(place_, poses_[i].translation(), reach_of(pieces) + 4.0);
+    const ScoredMatch best = tracker_.match(place_, view, pieces, here).front();
+    if (best.match.verdict != Verdict::accepted ||
+        best.score < tracker_.score(view, poses_[i], here) + config_.doubtful_margin) {
+      continue;
+    }
+    poses_[i] = best.match.T_map_head;
+    ++moved;
+  }
+  return moved;
+}
+
+bool LoopCloser::is_doubtful(std::size_t index) {
+  const Eigen::Matrix3d& step = keyframes_[index].step_covariance;
+  if (step(0, 0) + step(1, 1) > config_.doubtful_xy_m * config_.doubtful_xy_m ||
+      step(2, 2) > config_.doubtful_yaw_rad * config_.doubtful_yaw_rad) {
+    return true;
+  }
+  const std::vector<SurfacePiece>& pieces = unpacked(index);
+  TsdView view;
+  view.assign(place_, poses_[index].translation(), reach_of(pieces) + 1.0);
+  direct_.set_scan(pieces);
+  const MatchEvidence evidence = direct_.judge(
+      view, poses_[index], {poses_[index], config_.tie_sigma_xy_m, config_.tie_sigma_yaw_rad});
+  return evidence.inlier_share() < config_.doubtful_share;
+}
+
+void LoopCloser::draw_others(std::size_t index) {
+  place_.own().clear();
+  tracker_.forget_all();
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+    if (i == index ||
+        (poses_[i].translation() - poses_[index].translation()).norm() > config_.doubtful_reach_m) {
+      continue;
+    }
+    (void)updater_.push(unpacked(i), poses_[i], 1.0, place_.own());
+  }
 }
 
 void LoopCloser::polish() {

@@ -45,11 +45,17 @@ struct LoopConfig {
 
   double redraw_xy_m = 0.06;  ///< corrections below this leave the layer as it is
   double redraw_yaw_rad = 0.008;
-  int tie_rounds = 2;        ///< at the end, how often all places seen twice are measured again
-  double tie_path_m = 1.0;   ///< of path from one to the next
+  int tie_rounds = 2;       ///< at the end, how often all places seen twice are measured again
+  double tie_path_m = 1.0;  ///< of path from one to the next
   double tie_sigma_xy_m = 0.1;
   double tie_sigma_yaw_rad = 0.02;
-  double polish_sigma_xy_m = 0.03;  ///< of a keyframe against the layer drawn anew
+  double doubtful_xy_m = 0.12;  ///< a keyframe whose step may be this far off ...
+  double doubtful_yaw_rad = 0.03;
+  double doubtful_sigma_xy_m = 0.3;  ///< (of the search for a better place, at least)
+  double doubtful_share = 0.85;      ///< ... or fewer inliers than this is looked at once more
+  double doubtful_reach_m = 8.0;     ///< on a map of the others within this distance
+  double doubtful_margin = 3.0;      ///< and moves to a place this much likelier
+  double polish_sigma_xy_m = 0.03;   ///< of a keyframe against the layer drawn anew
   double polish_sigma_yaw_rad = 0.006;
   double polish_max_m = 0.1;
   GraphConfig graph;
@@ -69,7 +75,7 @@ class LoopCloser {
   /// due; the correction, where the past has moved.
   [[nodiscard]] std::optional<MapCorrection> add(Keyframe keyframe);
   /// The correction that is due when no more keyframes come: all that is known, and each keyframe
-  /// aligned once more with the whole. None where no loop was closed.
+  /// aligned once more with the whole. None where nothing is to be corrected.
   [[nodiscard]] std::optional<MapCorrection> finish();
 
   [[nodiscard]] std::size_t loops() const { return loops_; }
@@ -89,6 +95,10 @@ class LoopCloser {
   [[nodiscard]] bool has_moved() const;
   [[nodiscard]] TsdGrid drawn_layer();
   void tie_places();
+  /// Moves keyframes that fit better elsewhere; how many did.
+  int reconsider();
+  [[nodiscard]] bool is_doubtful(std::size_t index);
+  void draw_others(std::size_t index);
   void polish();
   /// The keyframe's surfaces, until the next call.
   [[nodiscard]] const std::vector<SurfacePiece>& unpacked(std::size_t index);

@@ -19,12 +19,12 @@ struct TrackerConfig {
   double sure_share = 0.85;      ///< no search where the prediction led to this
   double search_sigma_m = 0.15;  ///< always search where the prediction may be this far off
   double lever_m = 5.0;          ///< what an error in yaw is worth
-  double rival_score = 6.0;  ///< places this much less likely (a log-likelihood) are kept in mind
-  int max_rivals = 3;        ///< beside the best
+  double rival_score = 6.0;   ///< places this much less likely (a log-likelihood) are kept in mind
+  int max_rivals = 3;         ///< beside the best
   double through_wall = 1.0;  ///< what a point costs that was seen through a wall, against 1 on one
-  double rival_doubt = 2.0;  ///< scores are this much less sure than they look
-  double apart_m = 0.12;     ///< nearer places are the same one ...
-  double apart_rad = 0.03;   ///< ... if they are turned alike
+  double rival_doubt = 2.0;   ///< scores are this much less sure than they look
+  double apart_m = 0.12;      ///< nearer places are the same one ...
+  double apart_rad = 0.03;    ///< ... if they are turned alike
 };
 
 /// A place for a scan.
@@ -46,6 +46,11 @@ class MapTracker {
                                                std::span<const SurfacePiece> pieces,
                                                const Prediction& prediction);
 
+  /// Log-likelihood of a place for the scan last matched: agreement with the map, beams that would
+  /// pass through walls, nearness to the prediction.
+  [[nodiscard]] double score(const TsdView& view, const Pose2& T_map_head,
+                             const Prediction& prediction) const;
+
   /// These tiles of the map have changed.
   void forget(std::span<const TileIndex> tiles) { search_.forget(tiles); }
   void forget_all() { search_.forget_all(); }
@@ -66,8 +71,6 @@ class MapTracker {
   [[nodiscard]] MatchResult judged(const TsdView& view, const Pose2& T_map_head, PoseSource source,
                                    const Prediction& prediction) const;
   [[nodiscard]] bool needs_search(const MatchResult& local, const Prediction& prediction) const;
-  [[nodiscard]] double score(const TsdView& view, const Pose2& T_map_head,
-                             const Prediction& prediction) const;
 
   TrackerConfig config_;
   DirectMatcher direct_;

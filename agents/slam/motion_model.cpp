@@ -9,6 +9,9 @@ namespace {
 /// Scans further apart than this are keyframes: the last velocity says nothing about them.
 constexpr double kLongestStep_s = 0.5;
 
+/// Share of the newest interval in the usual one.
+constexpr double kIntervalShare = 0.1;
+
 bool is_live(Duration elapsed) {
   return elapsed > Duration{0} && to_seconds(elapsed) <= kLongestStep_s;
 }
@@ -33,7 +36,8 @@ Pose2 MotionModel::predicted_step(const MotionPrior& prior) const {
 Prediction MotionModel::predict(const MotionPrior& prior) const {
   const Pose2 step = predicted_step(prior);
   const double length_m = step.translation().norm(), turn_rad = std::abs(step.yaw_rad);
-  const double dt_s = to_seconds(prior.elapsed);
+  // Scans that come in a burst were not taken in one: their stamps are not to be relied on.
+  const double dt_s = std::max(to_seconds(prior.elapsed), interval_s_);
   // Without a usable clock the step may have been any.
   const bool timed = prior.elapsed > Duration{0};
   double xy_m = config_.max_xy_m, yaw_rad = config_.max_yaw_rad;
@@ -60,14 +64,23 @@ void MotionModel::reset(const Pose2& T_map_head) {
 void MotionModel::matched(const Pose2& T_map_head, const MotionPrior& prior) {
   last_step_ = T_map_head_.inverse() * T_map_head;
   last_elapsed_ = prior.elapsed;
+  note_interval(prior.elapsed);
   T_map_head_ = T_map_head;
   sigma_xy_m_ = sigma_yaw_rad_ = 0.0;
 }
 
-void MotionModel::lost(const Prediction& prediction) {
+void MotionModel::lost(const Prediction& prediction, const MotionPrior& prior) {
+  note_interval(prior.elapsed);
   T_map_head_ = prediction.T_map_head;
   sigma_xy_m_ = prediction.sigma_xy_m;
   sigma_yaw_rad_ = prediction.sigma_yaw_rad;
+}
+
+void MotionModel::note_interval(Duration elapsed) {
+  if (elapsed <= Duration{0}) return;
+  const double seconds = std::min(to_seconds(elapsed), kLongestStep_s);
+  interval_s_ =
+      interval_s_ == 0.0 ? seconds : interval_s_ + kIntervalShare * (seconds - interval_s_);
 }
 
 }  // namespace lifeline::slam

@@ -42,15 +42,18 @@ class MotionModel {
   /// The scan was matched here.
   void matched(const Pose2& T_map_head, const MotionPrior& prior);
   /// The scan was not matched: the prediction stands, and its uncertainty stays.
-  void lost(const Prediction& prediction);
+  void lost(const Prediction& prediction, const MotionPrior& prior);
 
   [[nodiscard]] const Pose2& pose() const { return T_map_head_; }
 
  private:
+  void note_interval(Duration elapsed);
+
   MotionConfig config_;
   Pose2 T_map_head_;
   Pose2 last_step_;          ///< between the last two scans that matched, in the former's frame
   Duration last_elapsed_{};  ///< of last_step_
+  double interval_s_ = 0.0;  ///< usual time between scans
   double sigma_xy_m_ = 0.0;  ///< of T_map_head_, grown while lost
   double sigma_yaw_rad_ = 0.0;
 };

@@ -91,7 +91,7 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
     if (found.match.verdict == Verdict::rejected) {
       found.match.T_map_head = prediction.T_map_head;
       found.match.source = PoseSource::dead_reckoning;
-      next.motion.lost(prediction);
+      next.motion.lost(prediction, prior);
     } else {
       next.motion.matched(found.match.T_map_head, prior);
     }
@@ -214,7 +214,8 @@ int TsdSlam::revisit() {
                  reach_of(pieces) + 2.0 + config_.search.max_window_m);
     const MatchResult match = tracker_.match(map_, view_, pieces, prediction).front().match;
     if (match.verdict != Verdict::accepted) continue;
-    scan.T_keyframe_head = scan.T_keyframe_head * (prediction.T_map_head.inverse() * match.T_map_head);
+    scan.T_keyframe_head =
+        scan.T_keyframe_head * (prediction.T_map_head.inverse() * match.T_map_head);
     ++found;
   }
   return found;

@@ -90,6 +90,21 @@ TEST(DirectMatcher, ACorridorLeavesItsLengthToThePrediction) {
   EXPECT_GT(evidence.weakest_sigma_m, 5.0 * std::sqrt(evidence.covariance(1, 1)));
 }
 
+TEST(DirectMatcher, BeamsPassNoWallAtTheTruthAndOneWhereTheDeadEndWouldLieFurtherOn) {
+  // A dead end looks alike from further in: only the wall that the beams would have had to pass
+  // tells.
+  const FlatWorld dead_end =
+      FlatWorld().add(-6.0, 1.0, 4.0, 1.0).add(-6.0, -1.0, 4.0, -1.0).add(4.0, -1.0, 4.0, 1.0);
+  const WorkingMap map = map_of(dead_end, {{0.0, 0.0, 0.0}, {0.5, 0.2, 0.0}});
+  const TsdView view = view_of(map);
+  DirectMatcher matcher({});
+  matcher.set_scan(extract_surface(scan_of(dead_end, {0.3, 0.1, 0.0})));
+  EXPECT_LT(matcher.seen_through_walls(view, {0.3, 0.1, 0.0}), 0.02);
+  const Pose2 further{1.3, 0.1, 0.0};
+  EXPECT_GT(matcher.seen_through_walls(view, further), 0.1);
+  EXPECT_EQ(matcher.seen_through_walls(view_of(WorkingMap(kGeometry)), further), 0.0);
+}
+
 TEST(DirectMatcher, AnEmptyMapOrScanLeavesThePrediction) {
   const WorkingMap empty(kGeometry);
   DirectMatcher matcher({});

@@ -183,6 +183,28 @@ TEST(LoopCloser, AStraightWayHasNoLoops) {
   EXPECT_FALSE(closer.finish().has_value());
 }
 
+TEST(LoopCloser, AKeyframeThatFitsElsewhereIsMovedInTheEnd) {
+  DriftingWalk walk(0.0);
+  walk.keyframes.resize(30);
+  const std::size_t wrong = 15;
+  const Pose2 off{0.35, 0.1, 0.02};
+  Keyframe &astray = walk.keyframes[wrong], &after = walk.keyframes[wrong + 1];
+  astray.T_map_head = astray.T_map_head * off;
+  astray.T_previous_this = astray.T_previous_this * off;
+  after.T_previous_this = off.inverse() * after.T_previous_this;
+  // The tracker had its doubts.
+  astray.step_covariance = after.step_covariance = diagonal_covariance(0.3, 0.03);
+  LoopCloser closer({}, kGeometry, {}, {}, {}, {});
+  for (Keyframe& keyframe : walk.keyframes) {
+    EXPECT_FALSE(closer.add(std::move(keyframe)).has_value());
+  }
+  const auto correction = closer.finish();
+  ASSERT_TRUE(correction.has_value());
+  for (std::size_t i = 0; i < 30; ++i) {
+    EXPECT_LT(apart_m(correction->T_map_head[i], walk.true_in_map(i)), 0.05) << i;
+  }
+}
+
 TEST(KeyframeLog, ACorrectionMovesWhatItDidNotKnowAlong) {
   KeyframeLog log({});
   for (int i = 0; i < 3; ++i) {

@@ -127,6 +127,14 @@ TEST(MotionModel, LessIsKnownAfterLongerTimes) {
   EXPECT_LT(soon.sigma_yaw_rad, late.sigma_yaw_rad);
 }
 
+TEST(MotionModel, AScanHardOnTheHeelsOfAnotherMayBeAsFarAwayAsUsual) {
+  MotionModel model({});
+  model.reset({});
+  for (int i = 0; i < 20; ++i) model.matched({}, after(4 * kTenthSecond));
+  const double usual_m = model.predict(after(4 * kTenthSecond)).sigma_xy_m;
+  EXPECT_NEAR(model.predict(after(kTenthSecond / 20)).sigma_xy_m, usual_m, 1e-9);
+}
+
 TEST(MotionModel, UncertaintyGrowsWhileLostAndEndsWithAMatch) {
   MotionModel model({});
   model.reset({});
@@ -135,7 +143,7 @@ TEST(MotionModel, UncertaintyGrowsWhileLostAndEndsWithAMatch) {
     const Prediction prediction = model.predict(after(kTenthSecond));
     EXPECT_GT(prediction.sigma_xy_m, before_m);
     before_m = prediction.sigma_xy_m;
-    model.lost(prediction);
+    model.lost(prediction, after(kTenthSecond));
   }
   model.matched(model.pose(), after(kTenthSecond));
   EXPECT_LT(model.predict(after(kTenthSecond)).sigma_xy_m, before_m);
