@@ -13,13 +13,11 @@ constexpr int kTrialIterations = 6;
 std::vector<ScoredMatch> MapTracker::match(const WorkingMap& map, const TsdView& view,
                                            std::span<const SurfacePiece> pieces,
                                            const Prediction& prediction) {
-  direct_.set_scan(pieces);
-  const Pose2 local_pose = direct_.align(view, prediction);
-  MatchResult local = judged(view, local_pose, PoseSource::map, prediction);
-  const double local_score = score(view, local_pose, prediction);
-  if (!needs_search(local, prediction)) return {{std::move(local), local_score}};
+  const ScoredMatch local = match_locally(view, pieces, prediction);
+  if (!needs_search(local.match, prediction)) return {local};
 
-  std::vector<Place> places{{local_pose, local_score, PoseSource::map}};
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->search);
+  std::vector<Place> places{{local.match.T_map_head, local.score, PoseSource::map}};
   add_places(map, view, pieces, prediction, places);
   keep_rivals(places);
   std::vector<ScoredMatch> matches;
@@ -29,6 +27,14 @@ std::vector<ScoredMatch> MapTracker::match(const WorkingMap& map, const TsdView&
   }
   for (ScoredMatch& match : matches) match.match.evidence.covariance += spread(matches, match);
   return matches;
+}
+
+ScoredMatch MapTracker::match_locally(const TsdView& view, std::span<const SurfacePiece> pieces,
+                                      const Prediction& prediction) {
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
+  direct_.set_scan(pieces);
+  const Pose2 pose = direct_.align(view, prediction);
+  return {judged(view, pose, PoseSource::map, prediction), score(view, pose, prediction)};
 }
 
 Eigen::Matrix3d MapTracker::spread(const std::vector<ScoredMatch>& matches,

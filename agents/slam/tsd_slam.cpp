@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "agents/slam/deskew.hpp"
 #include "agents/slam/submap_chain.hpp"
+#include "common/base/check.hpp"
 
 namespace lifeline::slam {
 namespace {
@@ -26,17 +28,16 @@ TsdSlam::TsdSlam(SlamConfig config, GridGeometry geometry)
       tracker_(config.tracker, config.direct, config.search),
       gicp_(GicpConfig{.max_iterations = config.gicp_max_iterations}),
       detector_(detector_config(config)),
+      relocaliser_(config.relocalise, geometry, config.push, config.motion, tracker_,
+                   config.direct),
       updater_(geometry, config.push),
       keyframes_(config.keyframes),
       stories_(1, Story{MotionModel(config.motion), 0.0, {}}) {}
 
-SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior) {
-  Scan2 scan = raw;
-  deskew(scan, stories_.front().motion.predicted_step(prior), prior.elapsed);
-  auto pieces = extract_surface(scan, config_.surface);
-  const double reach_m = reach_of(pieces);
-  unsettled_.push_back({std::move(scan), std::move(pieces), reach_m});
+SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior, bool is_doubtful) {
+  take_in(raw, prior);
   if (!started_) return start();
+  if (lost_) return step_lost(prior);
 
   std::vector<Story> longer;
   for (const Story& story : stories_) extend(story, prior, longer);
@@ -52,10 +53,27 @@ SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior) {
                 0,
                 0,
                 static_cast<int>(stories_.size())};
-  change_trust(stories_.size() > 1 ? std::max(best.verdict, Verdict::weak) : best.verdict);
+  const bool is_weak = is_doubtful || stories_.size() > 1;
+  change_trust(is_weak ? std::max(best.verdict, Verdict::weak) : best.verdict);
   step.trust_percent = trust_percent_;
-  step.pushed = settle(static_cast<std::size_t>(config_.stories.max_unsettled));
+  note_match(prior);
+  step.pushed = settle(lost_ ? 0 : static_cast<std::size_t>(config_.stories.max_unsettled));
+  step.lost = lost_;
   return step;
+}
+
+void TsdSlam::take_in(const Scan2& raw, const MotionPrior& prior) {
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->predict);
+  Scan2 scan = raw;
+  deskew(scan, stories_.front().motion.predicted_step(prior), prior.elapsed);
+  auto pieces = extract_surface(scan, config_.surface);
+  const double reach_m = reach_of(pieces);
+  unsettled_.push_back({std::move(scan), std::move(pieces), reach_m});
+}
+
+void TsdSlam::time_stages(StageTimes* times) {
+  times_ = times;
+  tracker_.time_stages(times);
 }
 
 SlamStep TsdSlam::start() {
@@ -107,11 +125,13 @@ std::vector<ScoredMatch> TsdSlam::place(const Prediction& prediction, const Stor
   if (config_.matcher == Matcher::direct) {
     found = tracker_.match(map_, view_, scan.pieces, prediction);
   } else {
+    const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
     found.push_back({match_by_model(prediction, story), 0.0});
   }
   // A helmet that has several stories lives on those that still match.
   if (found.front().match.verdict == Verdict::rejected && stories_.size() == 1 &&
       config_.matcher != Matcher::conventional) {
+    const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
     found.assign(1, {match_previous_scan(prediction, story.motion.pose(), predicted_step), 0.0});
   }
   return found;
@@ -147,6 +167,98 @@ MatchResult TsdSlam::match_previous_scan(const Prediction& prediction, const Pos
   return result;
 }
 
+void TsdSlam::note_match(const MotionPrior& prior) {
+  const StoryStep& last = stories_.front().steps.back();
+  if (std::any_of(stories_.begin(), stories_.end(), [](const Story& story) {
+        return story.steps.back().match.verdict != Verdict::rejected;
+      })) {
+    rejected_in_a_row_ = 0;
+    heading_variance_ = 0.0;
+    return;
+  }
+  ++rejected_in_a_row_;
+  add_heading_doubt(prior);
+  const SearchConfig& search = config_.search;
+  const bool beyond_search =
+      search.window_sigmas * last.prediction.sigma_xy_m > search.max_window_m ||
+      search.window_sigmas * last.prediction.sigma_yaw_rad > search.max_window_rad;
+  if (!beyond_search || rejected_in_a_row_ < config_.lost_after_scans) return;
+  lost_ = true;
+  stories_.erase(stories_.begin() + 1, stories_.end());
+  trust_percent_ = 0;
+  relocaliser_.begin();
+}
+
+void TsdSlam::add_heading_doubt(const MotionPrior& prior) {
+  double sigma_rad = std::numbers::pi;  // any heading at all
+  if (prior.yaw_step_rad) {
+    sigma_rad = config_.motion.attitude_yaw_rad;
+  } else if (prior.T_previous_now) {
+    sigma_rad = config_.motion.odometry_yaw_rad +
+                config_.motion.odometry_share * std::abs(prior.T_previous_now->yaw_rad);
+  }
+  heading_variance_ += sigma_rad * sigma_rad;
+}
+
+SlamStep TsdSlam::step_lost(const MotionPrior& prior) {
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->relocalise);
+  const UnsettledScan scan = std::move(unsettled_.back());
+  unsettled_.clear();
+  const auto T_previous_now = relocaliser_.follow(scan.pieces, prior);
+  reckon(prior, T_previous_now);
+  MotionModel& motion = stories_.front().motion;
+  SlamStep step;
+  step.lost = true;
+  step.evidence.points = static_cast<int>(scan.pieces.size());
+  std::optional<RelocalisedPlace> place;
+  if (T_previous_now) {
+    place = relocaliser_.look(map_, motion.pose().yaw_rad, std::sqrt(heading_variance_));
+  }
+  if (place) {
+    // The next scan enters the map, once it has been matched from here as usual.
+    motion.reset(place->T_map_head * T_previous_now->inverse());
+    motion.matched(place->T_map_head, prior);
+    step.evidence = place->evidence;
+    step.verdict = Verdict::weak;
+    step.source = PoseSource::relocalised;
+    step.lost = lost_ = false;
+    rejected_in_a_row_ = 0;
+    heading_variance_ = 0.0;
+    relocaliser_.end();
+    change_trust(step.verdict);
+  }
+  step.T_map_head = motion.pose();
+  step.trust_percent = trust_percent_;
+  previous_pieces_ = scan.pieces;
+  note_settled(scan.scan.stamp, step.T_map_head);
+  return step;
+}
+
+void TsdSlam::reckon(const MotionPrior& prior, const std::optional<Pose2>& T_previous_now) {
+  MotionModel& motion = stories_.front().motion;
+  if (T_previous_now) {
+    motion.matched(motion.pose() * *T_previous_now, prior);
+    return;
+  }
+  add_heading_doubt(prior);
+  if (prior.T_previous_now) {
+    motion.matched(motion.pose() * motion.predicted_step(prior), prior);
+  } else {
+    // A velocity from before would carry the pose through walls and out of the building.
+    motion.reset(motion.pose() * Pose2{0.0, 0.0, prior.yaw_step_rad.value_or(0.0)});
+  }
+}
+
+void TsdSlam::resume(TsdGrid layer) {
+  LIFELINE_CHECK(!started_ && layer.geometry() == map_.geometry());
+  map_.own() = std::move(layer);
+  for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
+  tracker_.forget_all();
+  started_ = lost_ = resumed_ = true;
+  heading_variance_ = std::numbers::pi * std::numbers::pi;
+  relocaliser_.begin();
+}
+
 int TsdSlam::settle(std::size_t most_unsettled) {
   int pushed = 0;
   while (!unsettled_.empty() && (unsettled_.size() > most_unsettled || agree_on_oldest(stories_))) {
@@ -170,9 +282,13 @@ bool TsdSlam::settle_scan(const UnsettledScan& scan, const StoryStep& step) {
       keyframes_.keep(scan.scan.stamp, T_map_head, step.match.evidence.covariance, scan.pieces);
     }
   }
-  settled_.push_back(
-      {scan.scan.stamp, keyframes_.size(), keyframes_.poses().back().inverse() * T_map_head});
+  note_settled(scan.scan.stamp, T_map_head);
   return pushes;
+}
+
+void TsdSlam::note_settled(Timestamp stamp, const Pose2& T_map_head) {
+  const Pose2 T_map_keyframe = keyframes_.size() == 0 ? Pose2{} : keyframes_.poses().back();
+  settled_.push_back({stamp, keyframes_.size(), T_map_keyframe.inverse() * T_map_head});
 }
 
 void TsdSlam::settle_all() {
@@ -198,6 +314,7 @@ bool TsdSlam::push_is_due(const Pose2& T_map_head, Timestamp stamp) const {
 }
 
 void TsdSlam::push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp) {
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->push);
   const auto changed = updater_.push(pieces, T_map_head, 1.0, map_.own());
   map_.note_own_changed(changed);
   tracker_.forget(changed);
@@ -221,6 +338,7 @@ void TsdSlam::change_trust(Verdict verdict) {
 }
 
 bool TsdSlam::apply(MapCorrection correction) {
+  if (resumed_) return false;
   const auto T_new_old = keyframes_.rebase(correction);
   if (!T_new_old) return false;
   for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
@@ -234,6 +352,7 @@ bool TsdSlam::apply(MapCorrection correction) {
   for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
   map_.note_own_changed(std::vector<TileIndex>(changed_.begin(), changed_.end()));
   tracker_.forget_all();
+  relocaliser_.map_changed();
   for (Story& story : stories_) {
     story.motion.move(*T_new_old);
     for (StoryStep& step : story.steps) {
@@ -253,17 +372,21 @@ std::vector<TileIndex> TsdSlam::take_changed_tiles() {
 
 void TsdSlam::set_peer_tile(TileIndex tile, std::shared_ptr<const TsdTile> cells) {
   map_.set_peer_tile(tile, std::move(cells));
+  relocaliser_.map_changed();
   tracker_.forget(std::span(&tile, 1));
 }
 
 void TsdSlam::clear_peers() {
   map_.clear_peers();
+  relocaliser_.map_changed();
   tracker_.forget_all();
 }
 
 void TsdSlam::set_own_weight(double w_T1) {
   map_.set_own_weight(w_T1);
-  if (map_.has_peers()) tracker_.forget_all();
+  if (!map_.has_peers()) return;
+  tracker_.forget_all();
+  relocaliser_.map_changed();
 }
 
 }  // namespace lifeline::slam
