@@ -10,8 +10,8 @@ namespace lifeline::slam {
 
 struct ScanCheckConfig {
   std::size_t min_readings = 30;  ///< fewer tell nothing of a sweep that stands still
-  double frozen_turn_rad = 0.05;  ///< the head turned this far, and the sweep stayed the same ...
-  double frozen_way_m = 0.1;      ///< ... or went this far
+  double frozen_turn_rad = 0.01;  ///< the head turned this far, and the sweep stayed the same ...
+  double frozen_way_m = 0.03;     ///< ... or went this far
   double sparse_share = 0.5;      ///< of the readings that sweeps had so far, on average
   double memory_scans = 50.0;     ///< that the average is taken over, about
   double changed_share = 0.1;     ///< by which the number of beams may change unremarked

@@ -109,10 +109,21 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
       next.motion.lost(prediction);
     } else {
       next.motion.matched(found.match.T_map_head, prior);
+      if (recovering_) recover(found.match, next.motion);
     }
     next.steps.push_back({std::move(found.match), prediction});
     longer.push_back(std::move(next));
   }
+}
+
+void TsdSlam::recover(MatchResult& match, MotionModel& motion) const {
+  const MatchEvidence& evidence = match.evidence;
+  if (evidence.inlier_share() >= config_.tracker.sure_share &&
+      evidence.weakest_sigma_m <= config_.recovered_sigma_m) {
+    return;
+  }
+  match.verdict = Verdict::weak;
+  motion.doubt(evidence.weakest_sigma_m);
 }
 
 std::vector<ScoredMatch> TsdSlam::place(const Prediction& prediction, const Story& story,
@@ -128,8 +139,9 @@ std::vector<ScoredMatch> TsdSlam::place(const Prediction& prediction, const Stor
     const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
     found.push_back({match_by_model(prediction, story), 0.0});
   }
-  // A helmet that has several stories lives on those that still match.
-  if (found.front().match.verdict == Verdict::rejected && stories_.size() == 1 &&
+  // A helmet that has several stories lives on those that still match; one that was blind does not
+  // know from where the step would lead.
+  if (found.front().match.verdict == Verdict::rejected && stories_.size() == 1 && !recovering_ &&
       config_.matcher != Matcher::conventional) {
     const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
     found.assign(1, {match_previous_scan(prediction, story.motion.pose(), predicted_step), 0.0});
@@ -174,9 +186,11 @@ void TsdSlam::note_match(const MotionPrior& prior) {
       })) {
     rejected_in_a_row_ = 0;
     heading_variance_ = 0.0;
+    recovering_ = recovering_ && last.match.verdict != Verdict::accepted;
     return;
   }
   ++rejected_in_a_row_;
+  recovering_ = recovering_ || rejected_in_a_row_ >= config_.lost_after_scans;
   add_heading_doubt(prior);
   const SearchConfig& search = config_.search;
   const bool beyond_search =
@@ -222,6 +236,7 @@ SlamStep TsdSlam::step_lost(const MotionPrior& prior) {
     step.verdict = Verdict::weak;
     step.source = PoseSource::relocalised;
     step.lost = lost_ = false;
+    recovering_ = false;
     rejected_in_a_row_ = 0;
     heading_variance_ = 0.0;
     relocaliser_.end();

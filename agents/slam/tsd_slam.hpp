@@ -51,6 +51,7 @@ struct SlamConfig {
   LoopConfig loops;
   StoryConfig stories;
   int lost_after_scans = 3;  ///< that nothing matched, in a row, before the helmet counts as lost
+  double recovered_sigma_m = 0.1;  ///< after so many, a place less sure is not pushed at
   RelocaliseConfig relocalise;
 };
 
@@ -117,6 +118,7 @@ class TsdSlam {
 
   void take_in(const Scan2& raw, const MotionPrior& prior);
   [[nodiscard]] SlamStep start();
+  void recover(MatchResult& match, MotionModel& motion) const;
   void note_match(const MotionPrior& prior);
   [[nodiscard]] SlamStep step_lost(const MotionPrior& prior);
   void reckon(const MotionPrior& prior, const std::optional<Pose2>& T_previous_now);
@@ -154,6 +156,8 @@ class TsdSlam {
   bool started_ = false;
   bool lost_ = false;
   bool resumed_ = false;  ///< the layer holds what no keyframe knows of
+  /// After scans that nothing matched: a match that leaves the place open does not end it.
+  bool recovering_ = false;
   int rejected_in_a_row_ = 0;
   double heading_variance_ = 0.0;  ///< of the yaw since the last scan that matched, rad^2
   int trust_percent_ = 0;
