@@ -108,8 +108,11 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
       found.match.source = PoseSource::dead_reckoning;
       next.motion.lost(prediction);
     } else {
-      next.motion.matched(found.match.T_map_head, prior);
-      if (recovering_) recover(found.match, next.motion);
+      if (recovering_) {
+        recover(found.match, next.motion);
+      } else {
+        next.motion.matched(found.match.T_map_head, prior);
+      }
     }
     next.steps.push_back({std::move(found.match), prediction});
     longer.push_back(std::move(next));
@@ -117,6 +120,7 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
 }
 
 void TsdSlam::recover(MatchResult& match, MotionModel& motion) const {
+  motion.found(match.T_map_head);
   const MatchEvidence& evidence = match.evidence;
   if (evidence.inlier_share() >= config_.tracker.sure_share &&
       evidence.weakest_sigma_m <= config_.recovered_sigma_m) {
@@ -193,9 +197,12 @@ void TsdSlam::note_match(const MotionPrior& prior) {
   recovering_ = recovering_ || rejected_in_a_row_ >= config_.lost_after_scans;
   add_heading_doubt(prior);
   const SearchConfig& search = config_.search;
+  // Steps of yaw add up in the prediction; an attitude sensor's errors do not.
+  const double sigma_yaw_rad =
+      std::min(last.prediction.sigma_yaw_rad, std::sqrt(heading_variance_));
   const bool beyond_search =
       search.window_sigmas * last.prediction.sigma_xy_m > search.max_window_m ||
-      search.window_sigmas * last.prediction.sigma_yaw_rad > search.max_window_rad;
+      search.window_sigmas * sigma_yaw_rad > search.max_window_rad;
   if (!beyond_search || rejected_in_a_row_ < config_.lost_after_scans) return;
   lost_ = true;
   stories_.erase(stories_.begin() + 1, stories_.end());
