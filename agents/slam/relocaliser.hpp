@@ -16,19 +16,19 @@ namespace lifeline::slam {
 struct RelocaliseConfig {
   GlobalSearchConfig search;
   StretchConfig stretch;
-  double min_known_share = 0.7;     ///< of the points seen, where the map knows anything
-  double min_inlier_share = 0.85;   ///< of these
-  double max_conflict_share = 0.1;  ///< of these, in space the map knows as free
-  double max_gone_share = 0.15;     ///< of the map's walls here: space seen free now
-  double margin = 0.15;             ///< in quality, to the second distinct place
-  int attempts = 3;                 ///< in a row that must agree ...
-  double moved_m = 2.0;             ///< ... over a way this long
-  double same_m = 0.2;              ///< they agree up to this ...
-  double same_rad = 0.06;           ///< ... and this
-  double attempt_distance_m = 0.1;  ///< between attempts, or ...
-  int attempt_scans = 5;            ///< ... so many scans
-  double heading_sigmas = 3.0;      ///< that the heading may be off ...
-  double heading_floor_rad = 0.15;  ///< ... and this beside
+  double min_known_share = 0.7;      ///< of the points seen, where the map knows anything
+  double min_inlier_share = 0.85;    ///< of these
+  double max_conflict_share = 0.04;  ///< of these, in space the map knows as free
+  double max_gone_share = 0.08;      ///< of the map's walls here: space seen free now
+  double margin = 0.15;              ///< in quality, to the second distinct place
+  int attempts = 3;                  ///< in a row that must agree ...
+  double moved_m = 2.0;              ///< ... over a way this long
+  double same_m = 0.2;               ///< they agree up to this ...
+  double same_rad = 0.06;            ///< ... and this
+  double attempt_distance_m = 0.1;   ///< between attempts, or ...
+  int attempt_scans = 5;             ///< ... so many scans
+  double heading_sigmas = 3.0;       ///< that the heading may be off ...
+  double heading_floor_rad = 0.15;   ///< ... and this beside
 };
 
 /// A place looked at closely.

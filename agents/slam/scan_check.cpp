@@ -46,13 +46,15 @@ bool ScanCheck::is_frozen(const sensing::RawScan& raw, const sensing::SensedMoti
   if (readings < config_.min_readings || !repeats(raw.ranges_m, last_ranges_m_)) {
     turned_rad_ = 0.0;
     T_first_now_ = {};
+    frozen_ = false;
     return false;
   }
   turned_rad_ += motion.yaw_step_rad.value_or(0.0);
   if (motion.T_previous_now) T_first_now_ = T_first_now_ * *motion.T_previous_now;
-  return std::abs(turned_rad_) > config_.frozen_turn_rad ||
-         std::abs(T_first_now_.yaw_rad) > config_.frozen_turn_rad ||
-         T_first_now_.translation().norm() > config_.frozen_way_m;
+  frozen_ = frozen_ || std::abs(turned_rad_) > config_.frozen_turn_rad ||
+            std::abs(T_first_now_.yaw_rad) > config_.frozen_turn_rad ||
+            T_first_now_.translation().norm() > config_.frozen_way_m;
+  return frozen_;
 }
 
 }  // namespace lifeline::slam

@@ -44,6 +44,7 @@ class ScanCheck {
   bool started_ = false;
   std::vector<float> last_ranges_m_;
   double usual_readings_ = 0.0;
+  bool frozen_ = false;      ///< once seen, until the sweep changes
   double turned_rad_ = 0.0;  ///< since the sweep that is repeated
   Pose2 T_first_now_;        ///< the same by dead reckoning
 };

@@ -103,16 +103,18 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
   for (ScoredMatch& found : place(prediction, story, story.motion.predicted_step(prior))) {
     Story next = story;
     next.score += found.score;
+    // After scans that nothing matched, only a match beyond doubt tells where the helmet is.
+    if (recovering_ && found.match.evidence.inlier_share() < config_.tracker.sure_share) {
+      found.match.verdict = Verdict::rejected;
+    }
     if (found.match.verdict == Verdict::rejected) {
       found.match.T_map_head = prediction.T_map_head;
       found.match.source = PoseSource::dead_reckoning;
       next.motion.lost(prediction);
+    } else if (recovering_) {
+      recover(found.match, next.motion);
     } else {
-      if (recovering_) {
-        recover(found.match, next.motion);
-      } else {
-        next.motion.matched(found.match.T_map_head, prior);
-      }
+      next.motion.matched(found.match.T_map_head, prior);
     }
     next.steps.push_back({std::move(found.match), prediction});
     longer.push_back(std::move(next));
@@ -121,13 +123,10 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
 
 void TsdSlam::recover(MatchResult& match, MotionModel& motion) const {
   motion.found(match.T_map_head);
-  const MatchEvidence& evidence = match.evidence;
-  if (evidence.inlier_share() >= config_.tracker.sure_share &&
-      evidence.weakest_sigma_m <= config_.recovered_sigma_m) {
-    return;
-  }
+  if (match.evidence.weakest_sigma_m <= config_.recovered_sigma_m) return;
+  // Along a corridor, say: used, but not pushed, and looked for as widely as before.
   match.verdict = Verdict::weak;
-  motion.doubt(evidence.weakest_sigma_m);
+  motion.doubt(match.evidence.weakest_sigma_m);
 }
 
 std::vector<ScoredMatch> TsdSlam::place(const Prediction& prediction, const Story& story,
