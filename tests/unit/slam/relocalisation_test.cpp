@@ -57,7 +57,29 @@ TEST(Relocalisation, AShortCoverIsBridgedWithoutBeingLost) {
   Walk walk(wing(), through_the_wing());
   for (int k = 0; k < 200; ++k) (void)walk.step(k);
   for (int k = 200; k < 210; ++k) EXPECT_FALSE(walk.step(k, Walk::Sees::nothing).lost);
-  EXPECT_FALSE(walk.step(210).lost);
+  for (int k = 210; k < 300; ++k) {
+    const SlamStep step = walk.step(k);
+    EXPECT_FALSE(step.lost) << k;
+    if (step.verdict == Verdict::accepted) {
+      EXPECT_LT(walk.off_m(step, k), 0.06) << k;
+    }
+    EXPECT_TRUE(k < 240 || step.verdict == Verdict::accepted) << k;
+  }
+}
+
+TEST(Relocalisation, TheWayFromTheGuessToThePlaceFoundIsNoMotion) {
+  // Blind where the way turns back: dead reckoning is 1 m off, and tracking begins anew all the
+  // same.
+  Walk walk(wing(), through_the_wing());
+  for (int k = 0; k < 42; ++k) (void)walk.step(k);
+  for (int k = 42; k < 52; ++k) (void)walk.step(k, Walk::Sees::nothing);
+  for (int k = 52; k < 200; ++k) {
+    const SlamStep step = walk.step(k);
+    if (!step.lost && step.verdict == Verdict::accepted) {
+      EXPECT_LT(walk.off_m(step, k), 0.06) << k;
+    }
+  }
+  EXPECT_FALSE(walk.slam.is_lost());
 }
 
 TEST(Relocalisation, AKidnappedHelmetIsFoundWhereItWasPut) {
