@@ -54,6 +54,7 @@ struct SlamRun {
   int lost_scans = 0;
   int relocalisations = 0;
   int bad_scans = 0;
+  int revisited = 0;
   std::size_t scans = 0;
   std::size_t loops = 0;
   int corrections = 0;
@@ -121,6 +122,7 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
     }
   }
   slam.time_stages(nullptr);
+  run.revisited = slam.revisit();
   run.trajectory = slam.trajectory();
   run.loops = closer ? closer->loops() : 0;
   return run;
@@ -164,6 +166,7 @@ std::string to_json(const SlamRun& run, const std::string& matcher, const TsdGri
   json["lost_scans"] = run.lost_scans;
   json["relocalisations"] = run.relocalisations;
   json["bad_scans"] = run.bad_scans;
+  json["placed_later"] = run.revisited;
   json["loops"] = run.loops;
   json["corrections"] = run.corrections;
   json["longest_correction_ms"] = quantile(run.loop_ms, 1.0);

@@ -10,6 +10,12 @@ namespace {
 
 /// From here on a cell counts as free: no surface within the truncation distance.
 constexpr float kFree = 0.95F;
+/// Below this a cell lies behind a surface, whatever the noise.
+constexpr float kBehind = -0.3F;
+/// Beams are followed in steps of so many cells: less than a surface's known thickness.
+constexpr float kBeamStep = 2.0F;
+/// A beam ends this much before its point, in cells: the surface it hit is its own.
+constexpr float kBeamEnd = 8.0F;
 /// Of a piece of surface: one this long has weight 1.
 constexpr float kTypicalLength_m = 0.2F;
 
@@ -158,6 +164,26 @@ double DirectMatcher::agreement(const TsdView& view, const Pose2& T_map_head) co
       continue;
     }
     sum += point.weight * (sample.value > kFree ? -0.5F : 1.0F - std::abs(sample.value));
+  }
+  return weight > 0.0F ? static_cast<double>(sum / weight) : 0.0;
+}
+
+double DirectMatcher::seen_through_walls(const TsdView& view, const Pose2& T_map_head) const {
+  const ViewPose pose(view, T_map_head);
+  const auto passes = [&](float x, float y, float length) {
+    for (float at = kBeamStep; at < length - kBeamEnd; at += kBeamStep) {
+      const float share = at / length;
+      const TsdCell cell = view.cell(static_cast<std::int32_t>(pose.x + share * x),
+                                     static_cast<std::int32_t>(pose.y + share * y));
+      if (cell.known() && cell.value() < kBehind) return true;
+    }
+    return false;
+  };
+  float sum = 0.0F, weight = 0.0F;
+  for (const Point& point : points_) {
+    const float x = pose.c * point.x - pose.s * point.y, y = pose.s * point.x + pose.c * point.y;
+    weight += point.weight;
+    if (passes(x, y, std::hypot(x, y))) sum += point.weight;
   }
   return weight > 0.0F ? static_cast<double>(sum / weight) : 0.0;
 }

@@ -45,6 +45,9 @@ class DirectMatcher {
   /// where all is unknown, below 0 where points stand in free space.
   [[nodiscard]] double agreement(const TsdView& view, const Pose2& T_map_head) const;
 
+  /// Share of the points, in [0, 1], whose beam would have had to pass through a known surface.
+  [[nodiscard]] double seen_through_walls(const TsdView& view, const Pose2& T_map_head) const;
+
  private:
   struct Point {
     float x, y;  ///< head frame, metres

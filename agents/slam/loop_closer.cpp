@@ -49,10 +49,11 @@ std::optional<MapCorrection> LoopCloser::add(Keyframe keyframe) {
   append(keyframe);
   keyframes_.push_back(std::move(keyframe));
   if (path_m_.back() < next_attempt_m_) return std::nullopt;
-  const auto old_index = old_place();
+  const std::size_t now = keyframes_.size() - 1;
+  const auto old_index = old_place(now);
   if (!old_index) return std::nullopt;
   next_attempt_m_ = path_m_.back() + config_.attempt_path_m;
-  const auto edge = measure(*old_index);
+  const auto edge = measure(*old_index, now, predict(*old_index));
   if (!edge || !believe(*edge)) return std::nullopt;
   optimise(poses_, edges_, config_.graph);
   if (!has_moved()) return std::nullopt;
@@ -64,6 +65,7 @@ std::optional<MapCorrection> LoopCloser::finish() {
   if (loops_ == 0) return std::nullopt;
   optimise(poses_, edges_, config_.graph);
   if (!redrawn_ && !has_moved()) return std::nullopt;
+  for (int round = 0; round < config_.tie_rounds; ++round) tie_places();
   polish();
   TsdGrid layer = drawn_layer();
   return MapCorrection{poses_, std::move(layer)};
@@ -91,11 +93,11 @@ void LoopCloser::append(const Keyframe& keyframe) {
   }
 }
 
-std::optional<std::size_t> LoopCloser::old_place() const {
-  const Pose2& here = poses_.back();
+std::optional<std::size_t> LoopCloser::old_place(std::size_t now) const {
+  const Pose2& here = poses_[now];
   std::optional<std::size_t> best;
   double best_m = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; path_m_.back() - path_m_[i] >= config_.min_path_m; ++i) {
+  for (std::size_t i = 0; path_m_[now] - path_m_[i] >= config_.min_path_m; ++i) {
     const double apart_m = (poses_[i].translation() - here.translation()).norm();
     if (apart_m > config_.near_m) continue;
     const double turned = 1.0 - std::cos(poses_[i].yaw_rad - here.yaw_rad);
@@ -113,21 +115,21 @@ const std::vector<SurfacePiece>& LoopCloser::unpacked(std::size_t index) {
   return scratch_;
 }
 
-void LoopCloser::draw_place(std::size_t old_index) {
+void LoopCloser::draw_place(std::size_t old_index, std::size_t now) {
   place_.own().clear();
   tracker_.forget_all();
   for (std::size_t i = 0; i < keyframes_.size(); ++i) {
     if (std::abs(path_m_[i] - path_m_[old_index]) > config_.old_reach_m) continue;
-    if (path_m_.back() - path_m_[i] < 0.5 * config_.min_path_m) continue;
+    if (path_m_[now] - path_m_[i] < 0.5 * config_.min_path_m) break;
     (void)updater_.push(unpacked(i), poses_[i], 1.0, place_.own());
   }
 }
 
-std::vector<SurfacePiece> LoopCloser::recent_surface() const {
+std::vector<SurfacePiece> LoopCloser::surface_before(std::size_t now) const {
   std::vector<SurfacePiece> recent, pieces;
-  const Pose2 T_head_map = poses_.back().inverse();
-  for (std::size_t i = keyframes_.size(); i-- > 0;) {
-    if (path_m_.back() - path_m_[i] > config_.new_reach_m) break;
+  const Pose2 T_head_map = poses_[now].inverse();
+  for (std::size_t i = now + 1; i-- > 0;) {
+    if (path_m_[now] - path_m_[i] > config_.new_reach_m) break;
     pieces.clear();
     keyframes_[i].surface.unpack(pieces);
     const Pose2 T_head_then = T_head_map * poses_[i];
@@ -151,16 +153,16 @@ Prediction LoopCloser::predict(std::size_t old_index) const {
           std::min(yaw_rad, config_.max_sigma_yaw_rad)};
 }
 
-std::optional<GraphEdge> LoopCloser::measure(std::size_t old_index) {
-  draw_place(old_index);
-  const std::vector<SurfacePiece> recent = recent_surface();
-  const Prediction prediction = predict(old_index);
+std::optional<GraphEdge> LoopCloser::measure(std::size_t old_index, std::size_t now,
+                                             const Prediction& prediction) {
+  draw_place(old_index, now);
+  const std::vector<SurfacePiece> recent = surface_before(now);
   TsdView view;
   view.assign(place_, prediction.T_map_head.translation(), reach_of(recent) + 4.0);
   const auto matches = tracker_.match(place_, view, recent, prediction);
   const MatchResult& match = matches.front().match;
   // Seen through a door, or from behind a thin wall, a place is not the same place.
-  const double share = looks_behind(unpacked(keyframes_.size() - 1))
+  const double share = looks_behind(unpacked(now))
                            ? config_.min_known_share
                            : config_.min_known_share_ahead;
   const bool same_place = match.evidence.known >= share * match.evidence.points;
@@ -171,7 +173,7 @@ std::optional<GraphEdge> LoopCloser::measure(std::size_t old_index) {
   const Pose2& T_map_old = poses_[old_index];
   const Eigen::Matrix3d covariance = turn_covariance(match.evidence.covariance, T_map_old.yaw_rad) +
                                      diagonal_covariance(config_.noise_xy_m, config_.noise_yaw_rad);
-  return GraphEdge{old_index, keyframes_.size() - 1, T_map_old.inverse() * match.T_map_head,
+  return GraphEdge{old_index, now, T_map_old.inverse() * match.T_map_head,
                    covariance, true};
 }
 
@@ -231,6 +233,23 @@ TsdGrid LoopCloser::drawn_layer() {
   drawn_poses_ = poses_;
   redrawn_ = true;
   return layer;
+}
+
+void LoopCloser::tie_places() {
+  std::vector<GraphEdge> ties;
+  double next_m = 0.0;
+  for (std::size_t now = 0; now < keyframes_.size(); ++now) {
+    if (path_m_[now] < next_m) continue;
+    const auto old_index = old_place(now);
+    if (!old_index) continue;
+    next_m = path_m_[now] + config_.tie_path_m;
+    const auto tie = measure(*old_index, now,
+                             {poses_[now], config_.tie_sigma_xy_m, config_.tie_sigma_yaw_rad});
+    if (tie) ties.push_back(*tie);
+  }
+  std::erase_if(edges_, [](const GraphEdge& edge) { return edge.may_be_wrong; });
+  edges_.insert(edges_.end(), ties.begin(), ties.end());
+  optimise(poses_, edges_, config_.graph);
 }
 
 void LoopCloser::polish() {

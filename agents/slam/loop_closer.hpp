@@ -45,6 +45,10 @@ struct LoopConfig {
 
   double redraw_xy_m = 0.06;  ///< corrections below this leave the layer as it is
   double redraw_yaw_rad = 0.008;
+  int tie_rounds = 2;        ///< at the end, how often all places seen twice are measured again
+  double tie_path_m = 1.0;   ///< of path from one to the next
+  double tie_sigma_xy_m = 0.1;
+  double tie_sigma_yaw_rad = 0.02;
   double polish_sigma_xy_m = 0.03;  ///< of a keyframe against the layer drawn anew
   double polish_sigma_yaw_rad = 0.006;
   double polish_max_m = 0.1;
@@ -72,10 +76,11 @@ class LoopCloser {
 
  private:
   void append(const Keyframe& keyframe);
-  [[nodiscard]] std::optional<std::size_t> old_place() const;
-  [[nodiscard]] std::optional<GraphEdge> measure(std::size_t old_index);
-  void draw_place(std::size_t old_index);
-  [[nodiscard]] std::vector<SurfacePiece> recent_surface() const;
+  [[nodiscard]] std::optional<std::size_t> old_place(std::size_t now) const;
+  [[nodiscard]] std::optional<GraphEdge> measure(std::size_t old_index, std::size_t now,
+                                                 const Prediction& prediction);
+  void draw_place(std::size_t old_index, std::size_t now);
+  [[nodiscard]] std::vector<SurfacePiece> surface_before(std::size_t now) const;
   [[nodiscard]] Prediction predict(std::size_t old_index) const;
   [[nodiscard]] bool believe(const GraphEdge& edge);
   [[nodiscard]] bool is_surprising(const GraphEdge& edge) const;
@@ -83,6 +88,7 @@ class LoopCloser {
   void close(const GraphEdge& edge);
   [[nodiscard]] bool has_moved() const;
   [[nodiscard]] TsdGrid drawn_layer();
+  void tie_places();
   void polish();
   /// The keyframe's surfaces, until the next call.
   [[nodiscard]] const std::vector<SurfacePiece>& unpacked(std::size_t index);

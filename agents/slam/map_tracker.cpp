@@ -89,8 +89,9 @@ double MapTracker::score(const TsdView& view, const Pose2& T_map_head,
       (T_map_head.translation() - expected.translation()).norm() / prediction.sigma_xy_m;
   const double yaw =
       normalise_angle(T_map_head.yaw_rad - expected.yaw_rad) / prediction.sigma_yaw_rad;
-  return search_.config().independent_points * direct_.agreement(view, T_map_head) -
-         0.5 * (xy * xy + yaw * yaw);
+  const double fit = direct_.agreement(view, T_map_head) -
+                     config_.through_wall * direct_.seen_through_walls(view, T_map_head);
+  return search_.config().independent_points * fit - 0.5 * (xy * xy + yaw * yaw);
 }
 
 MatchResult MapTracker::judged(const TsdView& view, const Pose2& T_map_head, PoseSource source,

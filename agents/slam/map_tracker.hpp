@@ -22,6 +22,7 @@ struct TrackerConfig {
   double lever_m = 5.0;          ///< what an error in yaw is worth
   double rival_score = 6.0;  ///< places this much less likely (a log-likelihood) are kept in mind
   int max_rivals = 3;        ///< beside the best
+  double through_wall = 1.0;  ///< what a point costs that was seen through a wall, against 1 on one
   double rival_doubt = 2.0;  ///< scores are this much less sure than they look
   double apart_m = 0.12;     ///< nearer places are the same one ...
   double apart_rad = 0.03;   ///< ... if they are turned alike

@@ -10,6 +10,9 @@
 namespace lifeline::slam {
 namespace {
 
+/// So many scans that found no place are kept for a second look.
+constexpr std::size_t kMaxUnplaced = 500;
+
 FailureDetector::Config detector_config(const SlamConfig& config) {
   FailureDetector::Config detector;
   detector.min_model_points = config.min_model_points;
@@ -187,7 +190,13 @@ int TsdSlam::settle(std::size_t most_unsettled) {
 bool TsdSlam::settle_scan(const UnsettledScan& scan, const StoryStep& step) {
   const Pose2& T_map_head = step.match.T_map_head;
   const bool accepted = step.match.verdict == Verdict::accepted;
-  if (!accepted) keyframes_.note_lost(step.prediction);
+  if (!accepted) {
+    keyframes_.note_lost(step.prediction);
+    if (unplaced_.size() < kMaxUnplaced) {
+      unplaced_.push_back({settled_.size(), step.prediction.sigma_xy_m,
+                           step.prediction.sigma_yaw_rad, PackedSurface(scan.pieces)});
+    }
+  }
   const bool pushes = accepted && push_is_due(T_map_head, scan.scan.stamp);
   if (pushes) {
     push(scan.pieces, T_map_head, scan.scan.stamp);
@@ -211,12 +220,33 @@ void TsdSlam::settle_all() {
 std::vector<StampedPose> TsdSlam::trajectory() const {
   std::vector<StampedPose> trajectory;
   trajectory.reserve(settled_.size());
-  for (const SettledScan& scan : settled_) {
-    const Pose2 T_map_keyframe =
-        scan.keyframes == 0 ? Pose2{} : keyframes_.poses()[scan.keyframes - 1];
-    trajectory.push_back({scan.stamp, T_map_keyframe * scan.T_keyframe_head});
-  }
+  for (const SettledScan& scan : settled_) trajectory.push_back({scan.stamp, pose_of(scan)});
   return trajectory;
+}
+
+Pose2 TsdSlam::pose_of(const SettledScan& scan) const {
+  const Pose2 T_map_keyframe =
+      scan.keyframes == 0 ? Pose2{} : keyframes_.poses()[scan.keyframes - 1];
+  return T_map_keyframe * scan.T_keyframe_head;
+}
+
+int TsdSlam::revisit() {
+  int found = 0;
+  std::vector<SurfacePiece> pieces;
+  for (const UnplacedScan& unplaced : std::exchange(unplaced_, {})) {
+    pieces.clear();
+    unplaced.surface.unpack(pieces);
+    if (pieces.empty()) continue;
+    SettledScan& scan = settled_[unplaced.settled];
+    const Prediction prediction{pose_of(scan), unplaced.sigma_xy_m, unplaced.sigma_yaw_rad};
+    view_.assign(map_, prediction.T_map_head.translation(),
+                 reach_of(pieces) + 2.0 + config_.search.max_window_m);
+    const MatchResult match = tracker_.match(map_, view_, pieces, prediction).front().match;
+    if (match.verdict != Verdict::accepted) continue;
+    scan.T_keyframe_head = scan.T_keyframe_head * (prediction.T_map_head.inverse() * match.T_map_head);
+    ++found;
+  }
+  return found;
 }
 
 bool TsdSlam::push_is_due(const Pose2& T_map_head, Timestamp stamp) const {

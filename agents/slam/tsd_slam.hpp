@@ -94,6 +94,9 @@ class TsdSlam {
   [[nodiscard]] std::vector<StampedPose> trajectory() const;
   /// Settles the last few by what is known: no more scans will come.
   void settle_all();
+  /// Looks once more for a place for the scans that found none, now that the map holds what came
+  /// after them. How many found one.
+  int revisit();
   /// The keyframes since the last call, in order.
   [[nodiscard]] std::vector<Keyframe> take_keyframes() { return keyframes_.take(); }
   /// Takes over a corrected past: the layer as drawn anew, the scans since then on top, the present
@@ -117,6 +120,14 @@ class TsdSlam {
   };
 
   void take_in(const Scan2& raw, const MotionPrior& prior);
+  /// A scan that found no sure place when it came.
+  struct UnplacedScan {
+    std::size_t settled = 0;  ///< its number among the settled scans
+    double sigma_xy_m = 0.0;  ///< of the place it was given instead
+    double sigma_yaw_rad = 0.0;
+    PackedSurface surface;
+  };
+
   [[nodiscard]] SlamStep start();
   void recover(MatchResult& match, MotionModel& motion) const;
   void note_match(const MotionPrior& prior);
@@ -131,6 +142,7 @@ class TsdSlam {
                                                 const Pose2& last_pose,
                                                 const Pose2& predicted_step) const;
   int settle(std::size_t most_unsettled);
+  [[nodiscard]] Pose2 pose_of(const SettledScan& scan) const;
   [[nodiscard]] bool settle_scan(const UnsettledScan& scan, const StoryStep& step);
   void note_settled(Timestamp stamp, const Pose2& T_map_head);
   [[nodiscard]] bool push_is_due(const Pose2& T_map_head, Timestamp stamp) const;
@@ -151,6 +163,7 @@ class TsdSlam {
   std::vector<UnsettledScan> unsettled_;       ///< oldest first
   std::vector<SurfacePiece> previous_pieces_;  ///< D_(k-1)
   std::vector<SettledScan> settled_;
+  std::vector<UnplacedScan> unplaced_;
   std::set<TileIndex> changed_;
   StageTimes* times_ = nullptr;
   bool started_ = false;
