@@ -243,7 +243,8 @@ int TsdSlam::revisit() {
                  reach_of(pieces) + 2.0 + config_.search.max_window_m);
     const MatchResult match = tracker_.match(map_, view_, pieces, prediction).front().match;
     if (match.verdict != Verdict::accepted) continue;
-    scan.T_keyframe_head = scan.T_keyframe_head * (prediction.T_map_head.inverse() * match.T_map_head);
+    scan.T_keyframe_head =
+        scan.T_keyframe_head * (prediction.T_map_head.inverse() * match.T_map_head);
     ++found;
   }
   return found;
