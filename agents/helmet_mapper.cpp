@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMedianOver = 100;  // scans
 
 wire::AgentState state_of(const slam::SlamStep& step) {
+  if (step.lost) return wire::AgentState::lost;
   switch (step.verdict) {
     case slam::Verdict::accepted:
       return wire::AgentState::tracking;
@@ -43,8 +44,11 @@ void thin_out(const Scan2& scan, sharing::HelmetState& state) {
 
 void HelmetMapper::step(const sensing::RawScan& raw) {
   const auto started = std::chrono::steady_clock::now();
-  const Scan2 scan = sensing::project_scan(raw, projection_);
-  const slam::SlamStep step = slam_.step(scan, motion_.next(raw));
+  Scan2 scan = sensing::project_scan(raw, projection_);
+  const sensing::SensedMotion motion = motion_.next(raw);
+  const slam::ScanFaults faults = check_.next(raw, motion);
+  if (faults.frozen) scan.beams.clear();
+  const slam::SlamStep step = slam_.step(scan, motion, faults.any());
   step_ms_.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
   // Nobody closes loops in a running helmet yet (docs/decisions/0206).
   (void)slam_.take_keyframes();
@@ -66,6 +70,8 @@ void HelmetMapper::note_step(const sensing::RawScan& raw, const Scan2& scan,
   state_.trust_percent = static_cast<std::uint8_t>(std::clamp(step.trust_percent, 0, 100));
   ++state_.scans;
   if (step.verdict == slam::Verdict::rejected) ++state_.failures;
+  if (step.lost) ++lost_scans_;
+  if (step.source == slam::PoseSource::relocalised) ++relocalisations_;
   thin_out(scan, state_);
 }
 

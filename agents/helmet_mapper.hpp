@@ -8,6 +8,7 @@
 
 #include "agents/sensing/head_projection.hpp"
 #include "agents/sharing/helmet_sharing.hpp"
+#include "agents/slam/scan_check.hpp"
 #include "agents/slam/tsd_slam.hpp"
 #include "common/grid/stamped_pose.hpp"
 
@@ -34,6 +35,10 @@ class HelmetMapper {
   [[nodiscard]] sharing::MapTiles take_changed_tiles();
   [[nodiscard]] sharing::HelmetState state() const;
 
+  /// Scans taken while lost, and how often the place was found again.
+  [[nodiscard]] std::size_t lost_scans() const { return lost_scans_; }
+  [[nodiscard]] std::size_t relocalisations() const { return relocalisations_; }
+
   [[nodiscard]] const TsdGrid& layer() const { return slam_.layer(); }
   /// T_map_head of every scan, as last corrected; the last few come with finish().
   [[nodiscard]] std::vector<StampedPose> trajectory() const { return slam_.trajectory(); }
@@ -53,9 +58,12 @@ class HelmetMapper {
   slam::TsdSlam slam_;
   sensing::ProjectionConfig projection_;
   sensing::MotionTracker motion_;
+  slam::ScanCheck check_;
   std::optional<StampedPose> last_;
   std::vector<StampedPose> truth_;
   std::vector<double> step_ms_;
+  std::size_t lost_scans_ = 0;
+  std::size_t relocalisations_ = 0;
   std::set<TileIndex> changed_;
   sharing::HelmetState state_;
 };

@@ -23,6 +23,8 @@ std::string to_json(const LayerKey& layer, const HelmetMapper& mapper, std::size
   json["scans"] = state.scans;
   json["scans_dropped"] = scans_dropped;
   json["failures"] = state.failures;
+  json["lost_scans"] = mapper.lost_scans();
+  json["relocalisations"] = mapper.relocalisations();
   json["epoch_applied"] = map.epoch().value;
   json["common_map_sha256"] = map.shares() ? to_hex(map.common_map_sha256()) : "";
   json["fingerprint"] = map.shares() ? to_hex(map.fingerprint()) : "";

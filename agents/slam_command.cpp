@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@
 #include "agents/agent_settings.hpp"
 #include "agents/sensing/motion_tracker.hpp"
 #include "agents/slam/loop_closer.hpp"
+#include "agents/slam/scan_check.hpp"
+#include "agents/slam/stage_times.hpp"
 #include "agents/sources/open_source.hpp"
 #include "common/base/log.hpp"
 #include "common/base/quantile.hpp"
@@ -27,19 +30,34 @@ namespace {
 
 /// What the scans did, in their order.
 struct SlamRun {
+  void note(const slam::SlamStep& step) {
+    ++scans;
+    weak += step.verdict == slam::Verdict::weak ? 1 : 0;
+    rejected += step.verdict == slam::Verdict::rejected ? 1 : 0;
+    searches += step.source == slam::PoseSource::search ? 1 : 0;
+    pushed += step.pushed;
+    undecided += step.stories > 1 ? 1 : 0;
+    lost_scans += step.lost ? 1 : 0;
+    relocalisations += step.source == slam::PoseSource::relocalised ? 1 : 0;
+  }
+
   std::vector<StampedPose> trajectory;
   std::vector<StampedPose> truth;
   std::vector<double> step_ms;
+  std::vector<slam::StageTimes> stages;
+  std::vector<double> loop_ms;
   int weak = 0;
   int rejected = 0;
   int searches = 0;
   int pushed = 0;
   int undecided = 0;
+  int lost_scans = 0;
+  int relocalisations = 0;
+  int bad_scans = 0;
   int revisited = 0;
   std::size_t scans = 0;
   std::size_t loops = 0;
   int corrections = 0;
-  double longest_correction_ms = 0.0;
 };
 
 double peak_rss_mb() {
@@ -48,43 +66,53 @@ double peak_rss_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB
 }
 
+double milliseconds(Duration duration) {
+  return 1e3 * to_seconds(duration);
+}
+double milliseconds_since(std::chrono::steady_clock::time_point started) {
+  return milliseconds(std::chrono::steady_clock::now() - started);
+}
+
 /// What a helmet does beside the steps: looks for loops and corrects the past. Here it is done at
 /// once, so that the same input gives the same output.
 void correct(std::optional<slam::LoopCloser>& closer, slam::TsdSlam& slam, SlamRun& run) {
+  const auto started = std::chrono::steady_clock::now();
   std::vector<slam::Keyframe> keyframes = slam.take_keyframes();
   if (!closer) return;
-  const auto started = std::chrono::steady_clock::now();
   for (slam::Keyframe& keyframe : keyframes) {
     if (auto correction = closer->add(std::move(keyframe))) {
       run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
     }
   }
-  run.longest_correction_ms = std::max(
-      run.longest_correction_ms, 1e3 * to_seconds(std::chrono::steady_clock::now() - started));
+  run.loop_ms.push_back(milliseconds_since(started));
 }
 
 Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfig& projection,
                      slam::TsdSlam& slam, std::optional<slam::LoopCloser>& closer) {
   SlamRun run;
-  sensing::MotionTracker motion;
+  sensing::MotionTracker tracker;
+  slam::ScanCheck check;
+  slam::StageTimes stages;
+  slam.time_stages(&stages);
   for (;;) {
     auto raw = source.next();
     if (!raw) return forward_error(raw);
     if (!*raw) break;
+    stages = {};
     const auto started = std::chrono::steady_clock::now();
-    const Scan2 scan = sensing::project_scan(**raw, projection);
-    const slam::SlamStep step = slam.step(scan, motion.next(**raw));
-    run.step_ms.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
-    ++run.scans;
+    Scan2 scan = sensing::project_scan(**raw, projection);
+    const sensing::SensedMotion motion = tracker.next(**raw);
+    const slam::ScanFaults faults = check.next(**raw, motion);
+    if (faults.frozen) scan.beams.clear();
+    stages.predict = std::chrono::steady_clock::now() - started;
+    run.note(slam.step(scan, motion, faults.any()));
+    run.step_ms.push_back(milliseconds_since(started));
+    run.stages.push_back(stages);
+    run.bad_scans += faults.any() ? 1 : 0;
     correct(closer, slam, run);
     if ((*raw)->T_world_head_truth) {
       run.truth.push_back({(*raw)->stamp, *(*raw)->T_world_head_truth});
     }
-    run.weak += step.verdict == slam::Verdict::weak ? 1 : 0;
-    run.rejected += step.verdict == slam::Verdict::rejected ? 1 : 0;
-    run.searches += step.source == slam::PoseSource::search ? 1 : 0;
-    run.pushed += step.pushed;
-    run.undecided += step.stories > 1 ? 1 : 0;
   }
   slam.settle_all();
   correct(closer, slam, run);
@@ -93,10 +121,32 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
       run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
     }
   }
+  slam.time_stages(nullptr);
   run.revisited = slam.revisit();
   run.trajectory = slam.trajectory();
   run.loops = closer ? closer->loops() : 0;
   return run;
+}
+
+/// {predict: {median, p99}, ...}, in milliseconds, over the scans.
+nlohmann::ordered_json stages_ms(const SlamRun& run) {
+  nlohmann::ordered_json json;
+  const auto add = [&](const char* name, const std::vector<double>& ms) {
+    json[name] = {{"median", quantile(ms, 0.5)}, {"p99", quantile(ms, 0.99)}};
+  };
+  constexpr std::pair<const char*, Duration slam::StageTimes::*> kStages[] = {
+      {"predict", &slam::StageTimes::predict},
+      {"match", &slam::StageTimes::match},
+      {"search", &slam::StageTimes::search},
+      {"push", &slam::StageTimes::push},
+      {"relocalise", &slam::StageTimes::relocalise}};
+  for (const auto& [name, stage] : kStages) {
+    std::vector<double> ms;
+    for (const slam::StageTimes& times : run.stages) ms.push_back(milliseconds(times.*stage));
+    add(name, ms);
+  }
+  add("loop", run.loop_ms);
+  return json;
 }
 
 std::string to_json(const SlamRun& run, const std::string& matcher, const TsdGrid& layer) {
@@ -105,6 +155,7 @@ std::string to_json(const SlamRun& run, const std::string& matcher, const TsdGri
   json["scans"] = run.trajectory.size();
   json["step_ms_median"] = quantile(run.step_ms, 0.5);
   json["step_ms_p99"] = quantile(run.step_ms, 0.99);
+  json["stages_ms"] = stages_ms(run);
   json["peak_rss_mb"] = peak_rss_mb();
   json["failures"] = run.rejected;
   json["weak"] = run.weak;
@@ -112,10 +163,13 @@ std::string to_json(const SlamRun& run, const std::string& matcher, const TsdGri
   json["searches"] = run.searches;
   json["pushed"] = run.pushed;
   json["undecided"] = run.undecided;
+  json["lost_scans"] = run.lost_scans;
+  json["relocalisations"] = run.relocalisations;
+  json["bad_scans"] = run.bad_scans;
   json["placed_later"] = run.revisited;
   json["loops"] = run.loops;
   json["corrections"] = run.corrections;
-  json["longest_correction_ms"] = run.longest_correction_ms;
+  json["longest_correction_ms"] = quantile(run.loop_ms, 1.0);
   json["explored_m2"] = known_area_m2(layer);
   return json.dump(1) + "\n";
 }

@@ -10,6 +10,13 @@ namespace {
 /// Score of a point on a surface; the sum over 300 points still fits 16 bits.
 constexpr int kFull = 100;
 
+/// Summed at once; a constant number, so that the compiler makes vectors of them.
+constexpr int kLanes = 16;
+
+void add_lanes(const std::int8_t* from, std::int16_t* sum) {
+  for (int i = 0; i < kLanes; ++i) sum[i] = static_cast<std::int16_t>(sum[i] + from[i]);
+}
+
 /// How well a scan's point would fit into a cell.
 int fit(TsdCell cell, int free_penalty) {
   if (cell.tsd > TsdCell::kTsdOne * 95 / 100) return -free_penalty;
@@ -76,7 +83,7 @@ void CorrelativeSearch::build_field(const WorkingMap& map, const Pose2& centre, 
   columns_ = (high.x - low.x + 1) * kFieldSide;
   rows_ = (high.y - low.y + 1) * kFieldSide;
   field_origin_m_ = Eigen::Vector2d(low.x, low.y) * tile_m;
-  field_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
+  field_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + kLanes, 0);
   for (std::int32_t y = low.y; y <= high.y; ++y) {
     for (std::int32_t x = low.x; x <= high.x; ++x) {
       const TsdTile* cells = map.find({x, y});
@@ -115,7 +122,9 @@ const CorrelativeSearch::TileField& CorrelativeSearch::field_of(TileIndex tile,
 
 void CorrelativeSearch::score_yaw(const Pose2& centre, double yaw_rad, int window) {
   const int side = 2 * window + 1;
-  scores_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
+  // Rows are summed in whole vectors; what the last one holds beyond the window is never read.
+  stride_ = (side + kLanes - 1) / kLanes * kLanes;
+  scores_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(side), 0);
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
   for (const Eigen::Vector2d& p : points_) {
     const double x_m = centre.x_m + c * p.x() - s * p.y() - field_origin_m_.x();
@@ -125,8 +134,8 @@ void CorrelativeSearch::score_yaw(const Pose2& centre, double yaw_rad, int windo
     if (column < 0 || row < 0 || column + side > columns_ || row + side > rows_) continue;
     const std::int8_t* from = field_.data() + static_cast<std::ptrdiff_t>(row) * columns_ + column;
     std::int16_t* sum = scores_.data();
-    for (int dy = 0; dy < side; ++dy, from += columns_, sum += side) {
-      for (int dx = 0; dx < side; ++dx) sum[dx] = static_cast<std::int16_t>(sum[dx] + from[dx]);
+    for (int dy = 0; dy < side; ++dy, from += columns_, sum += stride_) {
+      for (int dx = 0; dx < stride_; dx += kLanes) add_lanes(from + dx, sum + dx);
     }
   }
 }
@@ -143,9 +152,9 @@ void CorrelativeSearch::collect(const Prediction& prediction, double yaw_rad, in
   const double full = static_cast<double>(kFull) * static_cast<double>(points_.size());
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const std::int16_t* here = scores_.data() + y * side + x;
+      const std::int16_t* here = scores_.data() + y * stride_ + x;
       if (*here <= 0 || (x > 0 && here[-1] > *here) || (x + 1 < side && here[1] > *here) ||
-          (y > 0 && here[-side] > *here) || (y + 1 < side && here[side] > *here)) {
+          (y > 0 && here[-stride_] > *here) || (y + 1 < side && here[stride_] > *here)) {
         continue;
       }
       const double dx_m = (x - window) * spacing_m_, dy_m = (y - window) * spacing_m_;

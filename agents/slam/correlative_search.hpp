@@ -69,7 +69,8 @@ class CorrelativeSearch {
   double spacing_m_ = 0.1;
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::int16_t> scores_;  ///< of one yaw, (2 window + 1)^2
+  std::vector<std::int16_t> scores_;  ///< of one yaw, (2 window + 1) rows of stride_
+  int stride_ = 0;
   std::vector<SearchCandidate> found_;
 };
 

@@ -316,6 +316,7 @@ void LoopCloser::polish() {
     const double moved_m = (aligned.translation() - poses_[i].translation()).norm();
     if (moved_m <= config_.polish_max_m) poses_[i] = aligned;
   }
+  place_.own().clear();  // as large as the layer that is drawn next
 }
 
 }  // namespace lifeline::slam

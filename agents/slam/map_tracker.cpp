@@ -13,13 +13,12 @@ constexpr int kTrialIterations = 6;
 std::vector<ScoredMatch> MapTracker::match(const WorkingMap& map, const TsdView& view,
                                            std::span<const SurfacePiece> pieces,
                                            const Prediction& prediction) {
-  direct_.set_scan(pieces);
-  const Pose2 local_pose = direct_.align(view, prediction);
-  MatchResult local = judged(view, local_pose, PoseSource::map, prediction);
-  const double local_score = score(view, local_pose, prediction);
-  if (!needs_search(local, prediction)) return {{std::move(local), local_score}};
+  const MatchResult local = match_locally(view, pieces, prediction);
+  if (!needs_search(local, prediction)) return {{local, 0.0}};
 
-  std::vector<Place> places{{local_pose, local_score, PoseSource::map}};
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->search);
+  std::vector<Place> places{
+      {local.T_map_head, score(view, local.T_map_head, prediction), PoseSource::map}};
   add_places(map, view, pieces, prediction, places);
   keep_rivals(places);
   std::vector<ScoredMatch> matches;
@@ -29,6 +28,14 @@ std::vector<ScoredMatch> MapTracker::match(const WorkingMap& map, const TsdView&
   }
   for (ScoredMatch& match : matches) match.match.evidence.covariance += spread(matches, match);
   return matches;
+}
+
+MatchResult MapTracker::match_locally(const TsdView& view, std::span<const SurfacePiece> pieces,
+                                      const Prediction& prediction) {
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
+  direct_.set_scan(pieces);
+  const Pose2 pose = direct_.align(view, prediction);
+  return judged(view, pose, PoseSource::map, prediction);
 }
 
 Eigen::Matrix3d MapTracker::spread(const std::vector<ScoredMatch>& matches,

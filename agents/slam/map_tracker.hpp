@@ -6,6 +6,7 @@
 #include "agents/slam/correlative_search.hpp"
 #include "agents/slam/direct_matcher.hpp"
 #include "agents/slam/slam_types.hpp"
+#include "agents/slam/stage_times.hpp"
 #include "agents/slam/working_map.hpp"
 #include "common/grid/tsd_view.hpp"
 
@@ -41,7 +42,8 @@ class MapTracker {
   MapTracker(TrackerConfig config, DirectConfig direct, SearchConfig search)
       : config_(config), direct_(direct), search_(search) {}
 
-  /// The best place and its rivals, best first; at least one.
+  /// The best place and its rivals, best first; at least one. Where nothing had to be searched, it
+  /// is the only one, and not scored.
   [[nodiscard]] std::vector<ScoredMatch> match(const WorkingMap& map, const TsdView& view,
                                                std::span<const SurfacePiece> pieces,
                                                const Prediction& prediction);
@@ -55,7 +57,13 @@ class MapTracker {
   void forget(std::span<const TileIndex> tiles) { search_.forget(tiles); }
   void forget_all() { search_.forget_all(); }
 
+  /// Adds what alignment and search take to `times` from now on; nullptr ends it.
+  void time_stages(StageTimes* times) { times_ = times; }
+
  private:
+  /// The local alignment, which is enough for most scans.
+  [[nodiscard]] MatchResult match_locally(const TsdView& view, std::span<const SurfacePiece> pieces,
+                                          const Prediction& prediction);
   struct Place {
     Pose2 T_map_head;
     double score;
@@ -75,6 +83,7 @@ class MapTracker {
   TrackerConfig config_;
   DirectMatcher direct_;
   CorrelativeSearch search_;
+  StageTimes* times_ = nullptr;
 };
 
 }  // namespace lifeline::slam

@@ -69,6 +69,11 @@ void MotionModel::matched(const Pose2& T_map_head, const MotionPrior& prior) {
   sigma_xy_m_ = sigma_yaw_rad_ = 0.0;
 }
 
+void MotionModel::found(const Pose2& T_map_head) {
+  T_map_head_ = T_map_head;
+  sigma_xy_m_ = sigma_yaw_rad_ = 0.0;
+}
+
 void MotionModel::lost(const Prediction& prediction, const MotionPrior& prior) {
   note_interval(prior.elapsed);
   T_map_head_ = prediction.T_map_head;

@@ -41,6 +41,11 @@ class MotionModel {
   void move(const Pose2& T_new_old) { T_map_head_ = T_new_old * T_map_head_; }
   /// The scan was matched here.
   void matched(const Pose2& T_map_head, const MotionPrior& prior);
+  /// The scan was matched here, after others were not: the way from the guess before to this place
+  /// is no motion, and the one known last is kept.
+  void found(const Pose2& T_map_head);
+  /// The last match left the place open by this much.
+  void doubt(double sigma_xy_m) { sigma_xy_m_ = sigma_xy_m; }
   /// The scan was not matched: the prediction stands, and its uncertainty stays.
   void lost(const Prediction& prediction, const MotionPrior& prior);
 

@@ -42,6 +42,7 @@ enum class PoseSource {
   search,          ///< matched against the working map after a search around the prediction
   scan_to_scan,    ///< GICP against the previous scan (Eq. 4, 5)
   dead_reckoning,  ///< nothing matched
+  relocalised,     ///< found again in the working map after having been lost
 };
 
 [[nodiscard]] constexpr const char* name_of(Verdict verdict) {
@@ -68,6 +69,8 @@ enum class PoseSource {
       return "scan_to_scan";
     case PoseSource::dead_reckoning:
       return "dead_reckoning";
+    case PoseSource::relocalised:
+      return "relocalised";
   }
   return "?";
 }

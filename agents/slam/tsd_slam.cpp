@@ -29,17 +29,16 @@ TsdSlam::TsdSlam(SlamConfig config, GridGeometry geometry)
       tracker_(config.tracker, config.direct, config.search),
       gicp_(GicpConfig{.max_iterations = config.gicp_max_iterations}),
       detector_(detector_config(config)),
+      relocaliser_(config.relocalise, geometry, config.push, config.motion, tracker_,
+                   config.direct),
       updater_(geometry, config.push),
       keyframes_(config.keyframes),
       stories_(1, Story{MotionModel(config.motion), 0.0, {}}) {}
 
-SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior) {
-  Scan2 scan = raw;
-  deskew(scan, stories_.front().motion.predicted_step(prior), prior.elapsed);
-  auto pieces = extract_surface(scan, config_.surface);
-  const double reach_m = reach_of(pieces);
-  unsettled_.push_back({std::move(scan), std::move(pieces), reach_m});
+SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior, bool is_doubtful) {
+  take_in(raw, prior);
   if (!started_) return start();
+  if (lost_) return step_lost(prior);
 
   std::vector<Story> longer;
   for (const Story& story : stories_) extend(story, prior, longer);
@@ -55,10 +54,27 @@ SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior) {
                 0,
                 0,
                 static_cast<int>(stories_.size())};
-  change_trust(stories_.size() > 1 ? std::max(best.verdict, Verdict::weak) : best.verdict);
+  const bool is_weak = is_doubtful || stories_.size() > 1;
+  change_trust(is_weak ? std::max(best.verdict, Verdict::weak) : best.verdict);
   step.trust_percent = trust_percent_;
-  step.pushed = settle(static_cast<std::size_t>(config_.stories.max_unsettled));
+  note_match(prior);
+  step.pushed = settle(lost_ ? 0 : static_cast<std::size_t>(config_.stories.max_unsettled));
+  step.lost = lost_;
   return step;
+}
+
+void TsdSlam::take_in(const Scan2& raw, const MotionPrior& prior) {
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->predict);
+  Scan2 scan = raw;
+  deskew(scan, stories_.front().motion.predicted_step(prior), prior.elapsed);
+  auto pieces = extract_surface(scan, config_.surface);
+  const double reach_m = reach_of(pieces);
+  unsettled_.push_back({std::move(scan), std::move(pieces), reach_m});
+}
+
+void TsdSlam::time_stages(StageTimes* times) {
+  times_ = times;
+  tracker_.time_stages(times);
 }
 
 SlamStep TsdSlam::start() {
@@ -88,10 +104,16 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
   for (ScoredMatch& found : place(prediction, story, story.motion.predicted_step(prior))) {
     Story next = story;
     next.score += found.score;
+    // After scans that nothing matched, only a match beyond doubt tells where the helmet is.
+    if (recovering_ && found.match.evidence.inlier_share() < config_.tracker.sure_share) {
+      found.match.verdict = Verdict::rejected;
+    }
     if (found.match.verdict == Verdict::rejected) {
       found.match.T_map_head = prediction.T_map_head;
       found.match.source = PoseSource::dead_reckoning;
       next.motion.lost(prediction, prior);
+    } else if (recovering_) {
+      recover(found.match, next.motion);
     } else {
       next.motion.matched(found.match.T_map_head, prior);
     }
@@ -109,12 +131,19 @@ std::vector<ScoredMatch> TsdSlam::place(const Prediction& prediction, const Stor
   std::vector<ScoredMatch> found;
   if (config_.matcher == Matcher::direct) {
     found = tracker_.match(map_, view_, scan.pieces, prediction);
+    if (found.size() == 1 && stories_.size() > 1) {
+      ScoredMatch& only = found.front();
+      only.score = tracker_.score(view_, only.match.T_map_head, prediction);
+    }
   } else {
+    const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
     found.push_back({match_by_model(prediction, story), 0.0});
   }
-  // A helmet that has several stories lives on those that still match.
-  if (found.front().match.verdict == Verdict::rejected && stories_.size() == 1 &&
+  // A helmet that has several stories lives on those that still match; one that was blind does not
+  // know from where the step would lead.
+  if (found.front().match.verdict == Verdict::rejected && stories_.size() == 1 && !recovering_ &&
       config_.matcher != Matcher::conventional) {
+    const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
     found.assign(1, {match_previous_scan(prediction, story.motion.pose(), predicted_step), 0.0});
   }
   return found;
@@ -179,9 +208,13 @@ bool TsdSlam::settle_scan(const UnsettledScan& scan, const StoryStep& step) {
       keyframes_.keep(scan.scan.stamp, T_map_head, step.match.evidence.covariance, scan.pieces);
     }
   }
-  settled_.push_back(
-      {scan.scan.stamp, keyframes_.size(), keyframes_.poses().back().inverse() * T_map_head});
+  note_settled(scan.scan.stamp, T_map_head);
   return pushes;
+}
+
+void TsdSlam::note_settled(Timestamp stamp, const Pose2& T_map_head) {
+  const Pose2 T_map_keyframe = keyframes_.size() == 0 ? Pose2{} : keyframes_.poses().back();
+  settled_.push_back({stamp, keyframes_.size(), T_map_keyframe.inverse() * T_map_head});
 }
 
 void TsdSlam::settle_all() {
@@ -229,6 +262,7 @@ bool TsdSlam::push_is_due(const Pose2& T_map_head, Timestamp stamp) const {
 }
 
 void TsdSlam::push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp) {
+  const StageTimer timer(times_ == nullptr ? nullptr : &times_->push);
   const auto changed = updater_.push(pieces, T_map_head, 1.0, map_.own());
   map_.note_own_changed(changed);
   tracker_.forget(changed);
@@ -252,6 +286,7 @@ void TsdSlam::change_trust(Verdict verdict) {
 }
 
 bool TsdSlam::apply(MapCorrection correction) {
+  if (resumed_) return false;
   const auto T_new_old = keyframes_.rebase(correction);
   if (!T_new_old) return false;
   for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
@@ -265,6 +300,7 @@ bool TsdSlam::apply(MapCorrection correction) {
   for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
   map_.note_own_changed(std::vector<TileIndex>(changed_.begin(), changed_.end()));
   tracker_.forget_all();
+  relocaliser_.map_changed();
   for (Story& story : stories_) {
     story.motion.move(*T_new_old);
     for (StoryStep& step : story.steps) {
@@ -284,17 +320,21 @@ std::vector<TileIndex> TsdSlam::take_changed_tiles() {
 
 void TsdSlam::set_peer_tile(TileIndex tile, std::shared_ptr<const TsdTile> cells) {
   map_.set_peer_tile(tile, std::move(cells));
+  relocaliser_.map_changed();
   tracker_.forget(std::span(&tile, 1));
 }
 
 void TsdSlam::clear_peers() {
   map_.clear_peers();
+  relocaliser_.map_changed();
   tracker_.forget_all();
 }
 
 void TsdSlam::set_own_weight(double w_T1) {
   map_.set_own_weight(w_T1);
-  if (map_.has_peers()) tracker_.forget_all();
+  if (!map_.has_peers()) return;
+  tracker_.forget_all();
+  relocaliser_.map_changed();
 }
 
 }  // namespace lifeline::slam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -11,7 +12,9 @@
 #include "agents/slam/map_tracker.hpp"
 #include "agents/slam/model_matcher.hpp"
 #include "agents/slam/motion_model.hpp"
+#include "agents/slam/relocaliser.hpp"
 #include "agents/slam/slam_types.hpp"
+#include "agents/slam/stage_times.hpp"
 #include "agents/slam/story.hpp"
 #include "agents/slam/working_map.hpp"
 #include "common/grid/stamped_pose.hpp"
@@ -47,6 +50,9 @@ struct SlamConfig {
   KeyframeConfig keyframes;
   LoopConfig loops;
   StoryConfig stories;
+  int lost_after_scans = 3;  ///< that nothing matched, in a row, before the helmet counts as lost
+  double recovered_sigma_m = 0.1;  ///< after so many, a place less sure is not pushed at
+  RelocaliseConfig relocalise;
 };
 
 /// What one scan did.
@@ -58,6 +64,7 @@ struct SlamStep {
   int pushed = 0;         ///< scans that entered the layer: this one, or older ones settled by it
   int trust_percent = 0;  ///< how far the pose can be relied on; falls while nothing matches
   int stories = 1;        ///< places that are still possible; the pose is the likeliest
+  bool lost = false;      ///< the place in the map is not known: the pose is a guess
 };
 
 /// One helmet's SLAM (paper, section 2). Frame: `map`, whose origin is the first pose. One owner.
@@ -65,8 +72,16 @@ class TsdSlam {
  public:
   TsdSlam(SlamConfig config, GridGeometry geometry);
 
-  /// Places the scan, and pushes it if it was placed well.
-  [[nodiscard]] SlamStep step(const Scan2& scan, const MotionPrior& prior);
+  /// Places the scan, and pushes it if it was placed well. A scan that is doubtful by itself
+  /// (ScanCheck) is placed like any other, but lowers the trust.
+  [[nodiscard]] SlamStep step(const Scan2& scan, const MotionPrior& prior,
+                              bool is_doubtful = false);
+  /// Goes on in a map made before, of this geometry: lost, until the first scans are found in it.
+  /// Before the first step().
+  void resume(TsdGrid layer);
+  /// Lost: nothing matched for so long that the place may be anywhere. Nothing is pushed until it
+  /// is found again, and the trust is 0.
+  [[nodiscard]] bool is_lost() const { return lost_; }
 
   /// The own layer: own observations only, whatever the peers say.
   [[nodiscard]] const TsdGrid& layer() const { return map_.own(); }
@@ -93,6 +108,9 @@ class TsdSlam {
   void clear_peers();
   void set_own_weight(double w_T1);
 
+  /// Adds what the stages take to `times` from now on; nullptr ends it.
+  void time_stages(StageTimes* times);
+
  private:
   /// A scan's place, held to the keyframe before it: a correction moves both.
   struct SettledScan {
@@ -101,6 +119,7 @@ class TsdSlam {
     Pose2 T_keyframe_head;  ///< from the last of them; from the map's origin, where there is none
   };
 
+  void take_in(const Scan2& raw, const MotionPrior& prior);
   /// A scan that found no sure place when it came.
   struct UnplacedScan {
     std::size_t settled = 0;  ///< its number among the settled scans
@@ -110,6 +129,11 @@ class TsdSlam {
   };
 
   [[nodiscard]] SlamStep start();
+  void recover(MatchResult& match, MotionModel& motion) const;
+  void note_match(const MotionPrior& prior);
+  [[nodiscard]] SlamStep step_lost(const MotionPrior& prior);
+  void reckon(const MotionPrior& prior, const std::optional<Pose2>& T_previous_now);
+  void add_heading_doubt(const MotionPrior& prior);
   void extend(const Story& story, const MotionPrior& prior, std::vector<Story>& longer);
   [[nodiscard]] std::vector<ScoredMatch> place(const Prediction& prediction, const Story& story,
                                                const Pose2& predicted_step);
@@ -120,6 +144,7 @@ class TsdSlam {
   int settle(std::size_t most_unsettled);
   [[nodiscard]] Pose2 pose_of(const SettledScan& scan) const;
   [[nodiscard]] bool settle_scan(const UnsettledScan& scan, const StoryStep& step);
+  void note_settled(Timestamp stamp, const Pose2& T_map_head);
   [[nodiscard]] bool push_is_due(const Pose2& T_map_head, Timestamp stamp) const;
   void push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp);
   void change_trust(Verdict verdict);
@@ -130,6 +155,7 @@ class TsdSlam {
   MapTracker tracker_;
   GicpMatcher gicp_;
   FailureDetector detector_;
+  Relocaliser relocaliser_;
   TsdUpdater updater_;
   TsdView view_;
   KeyframeLog keyframes_;
@@ -139,7 +165,14 @@ class TsdSlam {
   std::vector<SettledScan> settled_;
   std::vector<UnplacedScan> unplaced_;
   std::set<TileIndex> changed_;
+  StageTimes* times_ = nullptr;
   bool started_ = false;
+  bool lost_ = false;
+  bool resumed_ = false;  ///< the layer holds what no keyframe knows of
+  /// After scans that nothing matched: a match that leaves the place open does not end it.
+  bool recovering_ = false;
+  int rejected_in_a_row_ = 0;
+  double heading_variance_ = 0.0;  ///< of the yaw since the last scan that matched, rad^2
   int trust_percent_ = 0;
   Pose2 pushed_at_;
   Timestamp pushed_stamp_{};

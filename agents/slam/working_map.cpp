@@ -45,6 +45,17 @@ void WorkingMap::set_own_weight(double w_T1) {
   for (auto& [tile, peer] : peers_) peer.stale = true;
 }
 
+std::vector<TileIndex> WorkingMap::tiles() const {
+  std::vector<TileIndex> tiles = own_.tiles();
+  const auto owns = static_cast<std::ptrdiff_t>(tiles.size());
+  for (const auto& [tile, peer] : peers_) {
+    if (own_.find(tile) == nullptr) tiles.push_back(tile);
+  }
+  std::sort(tiles.begin() + owns, tiles.end());
+  std::inplace_merge(tiles.begin(), tiles.begin() + owns, tiles.end());
+  return tiles;
+}
+
 const TsdTile* WorkingMap::find(TileIndex tile) const {
   const TsdTile* own = own_.find(tile);
   if (peers_.empty()) return own;

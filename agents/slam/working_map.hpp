@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <unordered_map>
+#include <vector>
 
 #include "common/grid/tsd_grid.hpp"
 
@@ -30,6 +31,9 @@ class WorkingMap {
 
   /// w_T1 of Eq. 8-10, in [0, 1]; 0.5 at first.
   void set_own_weight(double w_T1);
+
+  /// All tiles that either side has, ordered by x, then y.
+  [[nodiscard]] std::vector<TileIndex> tiles() const;
 
   /// The blended tile; nullptr where neither side has one. Valid until the next change.
   [[nodiscard]] const TsdTile* find(TileIndex tile) const;

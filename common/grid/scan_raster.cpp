@@ -22,6 +22,12 @@ Interval solve(float slope, float constant, float low, float high) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+/// std::lround without a call: a double holds every float and the half that is added exactly.
+std::int32_t rounded(float x) {
+  const auto exact = static_cast<double>(x);
+  return static_cast<std::int32_t>(exact < 0.0 ? exact - 0.5 : exact + 0.5);
+}
+
 std::int32_t first_centre_from(float x) {
   return static_cast<std::int32_t>(std::ceil(x - 0.5F));
 }
@@ -142,18 +148,19 @@ void ScanRaster::draw_row(const SurfacePiece& piece, std::int32_t row, std::int3
   const float one_per_cell =
       static_cast<float>(TsdCell::kTsdOne) * cell_m / static_cast<float>(geometry_.truncation_m);
   const float behind = config_.behind_m / cell_m;
+  Tile* tile = nullptr;
   for (std::int32_t x = first; x <= last; ++x) {
     const CellIndex cell{x, row};
-    Tile* tile = tile_at(tile_of(cell));
+    if (x == first || (x & (kTileSide - 1)) == 0) tile = tile_at(tile_of(cell));
     if (tile == nullptr) continue;
     const float d = (static_cast<float>(x) + 0.5F - piece.point.x()) * piece.normal.x() +
                     (static_cast<float>(row) + 0.5F - piece.point.y()) * piece.normal.y();
     const float depth_loss = d < 0.0F ? (1.0F + d / behind) * (1.0F + d / behind) : 1.0F;
     const auto weight = static_cast<std::uint16_t>(
-        std::lround(piece.quality * depth_loss * static_cast<float>(TsdCell::kWeightOne)));
+        rounded(piece.quality * depth_loss * static_cast<float>(TsdCell::kWeightOne)));
     if (weight == 0) continue;
     const auto tsd = static_cast<std::int16_t>(
-        std::clamp(std::lround(d * one_per_cell), -long{TsdCell::kTsdOne}, long{TsdCell::kTsdOne}));
+        std::clamp(rounded(d * one_per_cell), -TsdCell::kTsdOne, TsdCell::kTsdOne));
     TsdCell& drawn = tile->cells[offset_in_tile(cell)];
     // Where two surfaces are about, the nearer one says how far it is.
     if (drawn.known() && std::abs(drawn.tsd) <= std::abs(tsd)) continue;

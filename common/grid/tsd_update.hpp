@@ -32,6 +32,10 @@ inline constexpr int kContradiction = TsdCell::kTsdOne * 3 / 4;
 [[nodiscard]] inline TsdCell updated(TsdCell cell, TsdCell seen, int weight_cap) {
   if (!seen.known()) return cell;
   if (!cell.known()) return seen;
+  // The mean of equals, without a division: free space that is seen free again, most of all cells.
+  if (seen.tsd == cell.tsd) {
+    return {cell.tsd, static_cast<std::uint16_t>(std::min(cell.weight + seen.weight, weight_cap))};
+  }
   constexpr int kDeep = -TsdCell::kTsdOne * 2 / 5;
   if (seen.tsd < kDeep && cell.tsd > 0 && cell.weight > 4 * seen.weight) return cell;
   int weight = cell.weight;

@@ -13,6 +13,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "agents/sources/open_source.hpp"
+#include "tests/bench/slam/fault_walks.hpp"
 #include "tests/bench/slam/slam_judge.hpp"
 
 namespace lifeline::bench {
@@ -75,10 +77,39 @@ class SlamBench {
     for (const std::string& matcher : matchers()) {
       play_walks("walks past doors", plans, matcher, options_.quick ? 30 : 60, "&doors=beside");
     }
+    play_faults(plans);
     return std::move(report_);
   }
 
  private:
+  /// In this process: what is done to a scan is nothing that a source could be asked for.
+  void play_faults(const std::vector<path>& plans) {
+    if (plans.empty()) return;
+    std::vector<std::vector<sensing::RawScan>> walks;
+    for (const Fault& fault : all_faults()) {
+      if (!wanted("faults, " + fault.name)) continue;
+      if (walks.empty()) walks = read_walks(plans);
+      fmt::print(stderr, "faults, {}\n", fault.name);
+      add(fault_rows(fault, walks));
+    }
+  }
+  /// Long enough to come back to where the walk has been.
+  [[nodiscard]] std::vector<std::vector<sensing::RawScan>> read_walks(
+      const std::vector<path>& plans) const {
+    std::vector<std::vector<sensing::RawScan>> walks;
+    for (const path& plan : plans) {
+      auto source = sources::open_source(fmt::format("sim:{}?duration={}&beams=360&head=natural",
+                                                     plan.string(), options_.quick ? 80 : 160));
+      if (!source) continue;
+      std::vector<sensing::RawScan> walk;
+      for (auto scan = (*source)->next(); scan && *scan; scan = (*source)->next()) {
+        walk.push_back(**std::move(scan));
+      }
+      if (walk.size() > 2) walks.push_back(std::move(walk));
+    }
+    return walks;
+  }
+
   [[nodiscard]] std::vector<std::string> matchers() const {
     return options_.quick ? std::vector<std::string>{kDefaultMatcher} : kMatchers;
   }

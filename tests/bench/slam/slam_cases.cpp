@@ -32,6 +32,10 @@ std::string carmen(const path& data, const std::string& name, const std::string&
                      prior);
 }
 
+const char* prior_name(const std::string& prior) {
+  return prior == "none" ? "no prior" : "yaw";
+}
+
 void add_intel(const path& data, std::vector<LogCase>& cases) {
   LogCase intel{.name = "intel, odometry",
                 .source = carmen(data, "intel", "odom"),
@@ -47,7 +51,15 @@ void add_intel(const path& data, std::vector<LogCase>& cases) {
   intel.bar = 0.10;
   intel.worst = 0.5;
   intel.reference = "all lost (Karto 0.75), prototype 0.17";
-  cases.push_back(std::move(intel));
+  cases.push_back(intel);
+  // Without bars: nobody survives these on keyframes half a metre apart.
+  intel.bar = intel.worst = std::nullopt;
+  intel.reference = "all lost";
+  for (const char* prior : {"yaw", "none"}) {
+    intel.name = fmt::format("intel, {}", prior_name(prior));
+    intel.source = carmen(data, "intel", prior);
+    cases.push_back(intel);
+  }
 }
 
 void add_carmen(const path& data, const CarmenLog& log, std::vector<LogCase>& cases) {
@@ -61,7 +73,14 @@ void add_carmen(const path& data, const CarmenLog& log, std::vector<LogCase>& ca
   add.source = carmen(data, log.name, "ahrs");
   add.bar = log.ahrs_bar;
   add.reference = log.ahrs_reference;
-  cases.push_back(std::move(add));
+  cases.push_back(add);
+  add.bar = std::nullopt;
+  add.reference = "";
+  for (const char* prior : {"yaw", "none"}) {
+    add.name = fmt::format("{}, {}", log.name, prior_name(prior));
+    add.source = carmen(data, log.name, prior);
+    cases.push_back(add);
+  }
 }
 
 /// The file or folder that a source plays.

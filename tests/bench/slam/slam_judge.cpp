@@ -78,6 +78,17 @@ void add_cost(const LogCase& log, const std::string& name, bool has_bars, const 
                   at_most(kMostMemoryMb, has_bars), "iris_lama 15, Hector 95, AutonOHM 223"});
 }
 
+/// The stages that took any time.
+void add_stages(const std::string& name, const SlamOutcome& run, std::vector<ReportRow>& rows) {
+  for (const auto& [stage, ms] : run.stats.value("stages_ms", nlohmann::json::object()).items()) {
+    const double p99 = ms.value("p99", kNothing);
+    if (p99 <= 0.0) continue;
+    rows.push_back(
+        {fmt::format("{}: {}, median", name, stage), ms.value("median", kNothing), "ms"});
+    rows.push_back({fmt::format("{}: {}, p99", name, stage), p99, "ms"});
+  }
+}
+
 /// One figure of every walk that has figures.
 std::vector<double> each(const std::vector<std::optional<WalkFigures>>& walks,
                          double WalkFigures::*figure) {
@@ -106,6 +117,7 @@ std::vector<ReportRow> judge_log(const LogCase& log, const std::string& matcher,
                     at_most(log.worst, has_bars), ""});
   }
   add_cost(log, name, has_bars, *run, rows);
+  if (has_bars) add_stages(name, *run, rows);
   return rows;
 }
 

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "agents/slam/direct_matcher.hpp"
+#include "agents/slam/global_search.hpp"
+#include "agents/slam/lost_stretch.hpp"
+#include "agents/slam/working_map.hpp"
+
+namespace lifeline::slam {
+
+/// When a place is believed. The defaults are meant to be wrong in none of some hundred thousand
+/// cases rather than quick (docs/decisions/0207).
+struct RelocaliseConfig {
+  GlobalSearchConfig search;
+  StretchConfig stretch;
+  double min_known_share = 0.7;      ///< of the points seen, where the map knows anything
+  double min_inlier_share = 0.85;    ///< of these
+  double max_conflict_share = 0.04;  ///< of these, in space the map knows as free
+  double max_gone_share = 0.08;      ///< of the map's walls here: space seen free now
+  double margin = 0.15;              ///< in quality, to the second distinct place
+  int attempts = 3;                  ///< in a row that must agree ...
+  double moved_m = 2.0;              ///< ... over a way this long
+  double same_m = 0.2;               ///< they agree up to this ...
+  double same_rad = 0.06;            ///< ... and this
+  double attempt_distance_m = 0.1;   ///< between attempts, or ...
+  int attempt_scans = 5;             ///< ... so many scans
+  double heading_sigmas = 3.0;       ///< that the heading may be off ...
+  double heading_floor_rad = 0.15;   ///< ... and this beside
+};
+
+/// A place looked at closely.
+struct RelocalisedPlace {
+  Pose2 T_map_head;
+  MatchEvidence evidence;
+  double gone_share = 0.0;  ///< of the map's walls around: seen through
+  double quality = 0.0;     ///< agreement of the points less gone_share
+};
+
+/// What one attempt came to.
+enum class AttemptOutcome {
+  nothing,    ///< no place is good enough
+  ambiguous,  ///< more than one may be
+  agreed,     ///< one place stands out; not yet often enough
+  found,
+};
+
+/// Finds a helmet's place again in its working map, wherever it is. Follows the helmet on a stretch
+/// of its own (LostStretch), searches the whole map for what was seen on it, looks at the best
+/// places closely, and believes one only if nothing speaks against it, no other comes near it, and
+/// several attempts over some way agree. One owner.
+class Relocaliser {
+ public:
+  Relocaliser(RelocaliseConfig config, GridGeometry geometry, PushConfig push, MotionConfig motion,
+              MapTracker tracker, DirectConfig direct);
+
+  /// Begins anew, with the map as it is now.
+  void begin();
+  /// The map has changed, by peers' tiles.
+  void map_changed() { map_is_stale_ = true; }
+  /// Frees what is not needed while tracking.
+  void end();
+
+  /// One more scan. How the head moved with it; empty where it does not fit the scans before.
+  [[nodiscard]] std::optional<Pose2> follow(std::span<const SurfacePiece> pieces,
+                                            const MotionPrior& prior);
+  /// Looks for the place, after a follow() that knew the motion, if it is time to. The place, once
+  /// it is sure. `heading_rad` in map, +- `heading_sigma_rad`.
+  [[nodiscard]] std::optional<RelocalisedPlace> look(const WorkingMap& map, double heading_rad,
+                                                     double heading_sigma_rad);
+
+  [[nodiscard]] AttemptOutcome last_outcome() const { return outcome_; }
+
+ private:
+  [[nodiscard]] bool attempt_is_due();
+  [[nodiscard]] AttemptOutcome attempt(const WorkingMap& map, double heading_rad, double window_rad,
+                                       RelocalisedPlace& best);
+  [[nodiscard]] RelocalisedPlace look_at(const WorkingMap& map, const Pose2& T_map_head,
+                                         double reach_m);
+  [[nodiscard]] double gone_share(const Pose2& T_map_head) const;
+  [[nodiscard]] bool is_good(const RelocalisedPlace& place) const;
+  [[nodiscard]] bool agrees(const Pose2& T_map_head);
+
+  RelocaliseConfig config_;
+  GlobalSearch search_;
+  LostStretch stretch_;
+  DirectMatcher direct_;
+  TsdView view_;
+  bool map_is_stale_ = true;
+  int scans_since_attempt_ = 0;
+  Pose2 T_stretch_attempt_;
+  int attempt_stretch_ = 0;
+  /// What the attempts so far agree on.
+  struct Agreement {
+    int attempts = 0;
+    int stretch = 0;
+    Pose2 T_map_stretch;
+    Pose2 T_stretch_first;  ///< the head, at the first attempt
+  } agreement_;
+  AttemptOutcome outcome_ = AttemptOutcome::nothing;
+};
+
+}  // namespace lifeline::slam
