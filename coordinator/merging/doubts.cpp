@@ -1,6 +1,7 @@
 #include "coordinator/merging/doubts.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -10,13 +11,12 @@ namespace {
 
 using SetAside = std::map<LayerPair, Contradiction>;
 
-bool connected_without(const std::vector<LayerPair>& edges, const LayerPair& left_out,
-                       const LayerPair& ends) {
+bool connected(const std::vector<LayerPair>& edges, const LayerPair& ends) {
   std::set<LayerKey> reached{ends.a};
   for (bool grew = true; grew;) {
     grew = false;
     for (const LayerPair& pair : edges) {
-      if (pair == left_out || reached.contains(pair.a) == reached.contains(pair.b)) continue;
+      if (reached.contains(pair.a) == reached.contains(pair.b)) continue;
       reached.insert(pair.a);
       reached.insert(pair.b);
       grew = true;
@@ -30,17 +30,25 @@ bool hang_together(const SpanningForest& forest, const LayerPair& pair) {
   return a != forest.places.end() && b != forest.places.end() && a->second.root == b->second.root;
 }
 
-/// The weakest edge between the ends that has nobody beside it.
+/// The edges between the ends that have nobody beside them.
+std::vector<LayerPair> bridges(const ConsistentEdges& consistent, const LayerPair& ends) {
+  std::vector<LayerPair> alone = consistent.forest.path(ends);
+  std::erase_if(alone, [&](const LayerPair& step) {
+    std::vector<LayerPair> others = consistent.chosen;
+    std::erase(others, step);
+    return connected(others, ends);
+  });
+  return alone;
+}
+
 std::optional<LayerPair> weakest_bridge(const EdgeMap& edges, const ConsistentEdges& consistent,
                                         const LayerPair& ends) {
-  std::optional<LayerPair> weakest;
-  for (const LayerPair& step : consistent.forest.path(ends)) {
-    if (connected_without(consistent.chosen, step, ends)) continue;
-    const double quality = edges.at(step).quality;
-    if (!weakest || std::pair(quality, step) < std::pair(edges.at(*weakest).quality, *weakest))
-      weakest = step;
-  }
-  return weakest;
+  const auto alone = bridges(consistent, ends);
+  const auto weakest =
+      std::min_element(alone.begin(), alone.end(), [&](const LayerPair& x, const LayerPair& y) {
+        return std::pair(edges.at(x).quality, x) < std::pair(edges.at(y).quality, y);
+      });
+  return weakest == alone.end() ? std::nullopt : std::optional(*weakest);
 }
 
 /// In metres of wall, up to a constant: quality is wall / (wall + constant).
@@ -82,22 +90,88 @@ bool set_aside_contradicted(const EdgeMap& edges, const ConsistentEdges& consist
   return false;
 }
 
-bool set_aside_objected(const EdgeMap& edges, const ConsistentEdges& consistent,
-                        const std::map<LayerPair, Objection>& objections, SetAside& set_aside) {
+using Objections = std::map<LayerPair, Objection>;
+
+/// Objections to where the forest lays two layers; others speak of places that nobody follows.
+std::vector<LayerPair> standing(const Objections& objections, const SpanningForest& forest) {
+  std::vector<LayerPair> pairs;
   for (const auto& [pair, objection] : objections) {
-    if (!hang_together(consistent.forest, pair)) continue;
-    const auto& places = consistent.forest.places;
-    const Pose2 T_a_b = places.at(pair.a).T_root_map.inverse() * places.at(pair.b).T_root_map;
-    if (!difference(T_a_b, objection.T_a_b, objection.centre_b_m).within(kSamePlaceM, kSameTurnRad))
-      continue;
-    const auto bridge = weakest_bridge(edges, consistent, pair);
-    if (!bridge) continue;
-    set_aside.emplace(
-        *bridge,
-        Contradiction{*bridge, Contradiction::Why::walls, {pair}, 0.0, 0.0, objection.conflict_m});
-    return true;
+    if (!hang_together(forest, pair)) continue;
+    const Pose2 T_a_b =
+        forest.places.at(pair.a).T_root_map.inverse() * forest.places.at(pair.b).T_root_map;
+    if (difference(T_a_b, objection.T_a_b, objection.centre_b_m).within(kSamePlaceM, kSameTurnRad))
+      pairs.push_back(pair);
   }
-  return false;
+  return pairs;
+}
+
+/// Edges that may be set aside together, so that some objections fall.
+struct Cut {
+  std::vector<LayerPair> edges;
+  LayerPair objection;    ///< one of those that fall
+  double resolved = 0.0;  ///< how many fall; a doubted edge that goes with them counts half
+  double lost = 0.0;      ///< quality of the edges that nobody doubts
+
+  [[nodiscard]] bool better_than(const Cut& other) const {
+    return resolved > other.resolved || (resolved == other.resolved && lost < other.lost);
+  }
+};
+
+Cut weigh(const EdgeMap& edges, const ConsistentEdges& consistent,
+          const std::vector<LayerPair>& objected, std::vector<LayerPair> cut_edges) {
+  Cut cut{std::move(cut_edges), objected.front(), 0.0, 0.0};
+  std::vector<LayerPair> left = consistent.chosen;
+  for (const LayerPair& pair : cut.edges) {
+    std::erase(left, pair);
+    const MergeEdge& edge = edges.at(pair);
+    cut.resolved += edge.doubted ? 0.5 : 0.0;
+    cut.lost += edge.doubted ? 0.0 : edge.quality;
+  }
+  for (const LayerPair& pair : objected) {
+    if (connected(left, pair)) continue;
+    cut.objection = pair;
+    cut.resolved += 1.0;
+  }
+  return cut;
+}
+
+/// All edges at `layer`, if at least as many others object to it as hold it without doubt.
+std::vector<LayerPair> edges_to_part(const EdgeMap& edges, const ConsistentEdges& consistent,
+                                     const std::vector<LayerPair>& objected,
+                                     const LayerKey& layer) {
+  const auto touches = [&](const LayerPair& pair) { return pair.a == layer || pair.b == layer; };
+  std::vector<LayerPair> at;
+  std::copy_if(consistent.chosen.begin(), consistent.chosen.end(), std::back_inserter(at), touches);
+  const auto holding = std::count_if(
+      at.begin(), at.end(), [&](const LayerPair& pair) { return !edges.at(pair).doubted; });
+  const auto objecting = std::count_if(objected.begin(), objected.end(), touches);
+  return holding <= objecting ? at : std::vector<LayerPair>{};
+}
+
+bool set_aside_objected(const EdgeMap& edges, const ConsistentEdges& consistent,
+                        const Objections& objections, SetAside& set_aside) {
+  const std::vector<LayerPair> objected = standing(objections, consistent.forest);
+  std::optional<Cut> best;
+  const auto consider = [&](std::vector<LayerPair> cut_edges) {
+    if (cut_edges.empty()) return;
+    const Cut cut = weigh(edges, consistent, objected, std::move(cut_edges));
+    if (!best || cut.better_than(*best)) best = cut;
+  };
+  for (const LayerPair& pair : objected) {
+    for (const LayerPair& bridge : bridges(consistent, pair)) consider({bridge});
+    for (const LayerKey& layer : {pair.a, pair.b})
+      consider(edges_to_part(edges, consistent, objected, layer));
+  }
+  if (!best) return false;
+  for (const LayerPair& pair : best->edges) {
+    set_aside.emplace(pair, Contradiction{pair,
+                                          Contradiction::Why::walls,
+                                          {best->objection},
+                                          0.0,
+                                          0.0,
+                                          objections.at(best->objection).conflict_m});
+  }
+  return true;
 }
 
 }  // namespace

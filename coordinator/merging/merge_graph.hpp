@@ -26,6 +26,7 @@ struct MergeEdge {
   Eigen::Matrix3d covariance;  ///< of T_a_b, x y yaw
   double quality = 0.0;        ///< in [0, 1]: what it weighs where edges contradict each other
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< middle of the agreeing wall, in b's frame
+  bool doubted = false;  ///< followed still, but its last match spoke against it
 };
 
 using EdgeMap = std::map<LayerPair, MergeEdge>;
@@ -85,6 +86,8 @@ class MergeGraph {
   /// Sets or replaces the edge of a pair.
   void set_edge(const LayerPair& pair, const MergeEdge& edge) { edges_[pair] = edge; }
   void withdraw(const LayerPair& pair) { edges_.erase(pair); }
+  /// The pair must have an edge.
+  void set_doubted(const LayerPair& pair, bool doubted) { edges_.at(pair).doubted = doubted; }
   /// nullptr where the pair has none.
   [[nodiscard]] const MergeEdge* edge(const LayerPair& pair) const;
   [[nodiscard]] const EdgeMap& edges() const { return edges_; }

@@ -26,7 +26,8 @@ MergeEdge to_edge(const matching::MatchResult& result) {
   const auto& best = result.candidates.front();
   // Metres of agreeing wall, brought into [0, 1): ten metres count half.
   const double wall_m = std::max(best.score, 0.0);
-  return {best.T_a_b, result.covariance, wall_m / (wall_m + 10.0), result.overlap_centre_b_m};
+  return {best.T_a_b, result.covariance, wall_m / (wall_m + 10.0), result.overlap_centre_b_m,
+          false};
 }
 
 std::optional<Pose2> MergeKeeper::place_to_check(const LayerPair& pair) const {
@@ -39,6 +40,7 @@ std::optional<Pose2> MergeKeeper::place_to_check(const LayerPair& pair) const {
 std::vector<PairNews> MergeKeeper::take(const LayerPair& pair, const PairMatch& match) {
   std::vector<PairNews> news{apply(pair, match)};
   if (graph_.edge(pair) != nullptr) {
+    graph_.set_doubted(pair, support_.in_doubt(pair));
     graph_.lift_objection(pair);  // the edge itself says now where they lie
     checked_.erase(pair);
   } else if (match.check) {

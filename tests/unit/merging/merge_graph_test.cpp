@@ -10,7 +10,7 @@ namespace {
 using test::layer;
 
 MergeEdge edge(const Pose2& T_a_b, double quality = 0.5) {
-  return {T_a_b, Eigen::Matrix3d::Identity() * 1e-4, quality, {0.0, 0.0}};
+  return {T_a_b, Eigen::Matrix3d::Identity() * 1e-4, quality};
 }
 
 void expect_near(const Pose2& actual, const Pose2& expected) {
@@ -193,6 +193,35 @@ TEST_F(MergeGraphTest, AWithdrawnEdgeSplitsItsGroup) {
   graph_.set_edge({alpha_, bravo_}, edge(T_alpha_bravo_));
   graph_.withdraw({alpha_, bravo_});
   EXPECT_TRUE(graph_.plan().groups.empty());
+}
+
+TEST_F(TrustedTriangleTest, WhoSeveralOthersObjectToIsPartedAndNotTheOthers) {
+  // bravo hangs on alpha by a weaker edge than delta does.
+  graph_.withdraw({bravo_, charlie_});
+  graph_.set_edge({alpha_, delta_}, delta_from(alpha_, T_alpha_delta_, 0.9));
+  for (const LayerKey& layer : {bravo_, charlie_})
+    graph_.object({layer, delta_}, {delta_from(layer, T_alpha_delta_).T_a_b, {1, 1}, 0.3, 6.0});
+  const MergePlan plan = graph_.plan();
+  ASSERT_EQ(plan.groups[0].size(), 3U);
+  EXPECT_EQ(plan.groups[0][2].layer, charlie_);
+}
+
+TEST_F(TrustedTriangleTest, WhoseOtherEdgeIsInDoubtIsPartedBeforeWhoseIsNot) {
+  graph_.withdraw({bravo_, charlie_});
+  graph_.set_edge({alpha_, delta_}, delta_from(alpha_, T_alpha_delta_, 0.9));
+  graph_.set_edge({charlie_, delta_}, delta_from(charlie_, T_alpha_delta_, 0.9));
+  graph_.set_doubted({charlie_, delta_}, true);
+  graph_.object({bravo_, delta_}, {delta_from(bravo_, T_alpha_delta_).T_a_b, {1, 1}, 0.3, 6.0});
+  const MergePlan plan = graph_.plan();
+  ASSERT_EQ(plan.groups[0].size(), 3U);
+  EXPECT_EQ(plan.groups[0][2].layer, charlie_);
+}
+
+TEST_F(TrustedTriangleTest, OneObjectionDoesNotPartWhomTwoEdgesHold) {
+  graph_.set_edge({alpha_, delta_}, delta_from(alpha_, T_alpha_delta_));
+  graph_.set_edge({charlie_, delta_}, delta_from(charlie_, T_alpha_delta_));
+  graph_.object({bravo_, delta_}, {delta_from(bravo_, T_alpha_delta_).T_a_b, {1, 1}, 0.3, 6.0});
+  EXPECT_EQ(graph_.plan().groups[0].size(), 4U);
 }
 
 }  // namespace
