@@ -106,18 +106,23 @@ std::vector<LayerPair> best_tree(const EdgeMap& edges) {
   return tree;
 }
 
-/// The best that comes of giving one contradicting edge a place in the forest.
-ConsistentEdges best_exchange(const EdgeMap& edges, const ConsistentEdges& from) {
-  ConsistentEdges best = from;
-  for (const Contradiction& out : from.left_out) {
-    for (const LayerPair& leaves : from.forest.path(out.pair)) {
+/// Gives one contradicting edge a place in the forest, if that adds weight: the heaviest edge that
+/// can, for the one whose going adds weight first.
+std::optional<ConsistentEdges> improve(const EdgeMap& edges, const ConsistentEdges& from) {
+  std::vector<std::pair<double, const LayerPair*>> order;
+  for (const Contradiction& out : from.left_out)
+    order.emplace_back(-edges.at(out.pair).quality, &out.pair);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  for (const auto& [quality, enters] : order) {
+    for (const LayerPair& leaves : from.forest.path(*enters)) {
       std::vector<LayerPair> tree = from.forest.edges;
-      std::replace(tree.begin(), tree.end(), leaves, out.pair);
+      std::replace(tree.begin(), tree.end(), leaves, *enters);
       ConsistentEdges other = judge(edges, std::move(tree));
-      if (other.weight > best.weight + kLeastGain) best = std::move(other);
+      if (other.weight > from.weight + kLeastGain) return other;
     }
   }
-  return best;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -174,10 +179,10 @@ std::optional<Contradiction> contradiction(const LayerPair& pair, const Spanning
 
 ConsistentEdges find_consistent_edges(const EdgeMap& edges) {
   ConsistentEdges found = judge(edges, best_tree(edges));
-  for (int i = 0; i < kMaxExchanges && !found.left_out.empty(); ++i) {
-    ConsistentEdges better = best_exchange(edges, found);
-    if (better.weight <= found.weight + kLeastGain) break;
-    found = std::move(better);
+  for (int i = 0; i < kMaxExchanges; ++i) {
+    auto better = improve(edges, found);
+    if (!better) break;
+    found = *std::move(better);
   }
   return found;
 }

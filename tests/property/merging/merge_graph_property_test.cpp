@@ -199,14 +199,20 @@ TEST(ConsistentEdgesProperty, AreTheHeaviestOfAllSubsets) {
   }
 }
 
-TEST(ConsistentEdgesProperty, FindNineInTenRightHelmetsWhereOneEdgeInFourIsWrong) {
+TEST(ConsistentEdgesProperty, WeighNoLessThanAllRightEdgesOfTenHelmets) {
+  std::size_t right = 0, lost = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
     const RandomGraph graph = random_graph(1000 + seed, 10, 45, 0.25);
     const ConsistentEdges found = find_consistent_edges(graph.edges);
-    for (const auto& out : found.left_out)
-      EXPECT_TRUE(graph.wrong.contains(out.pair)) << "seed " << seed << ": a right edge left out";
-    EXPECT_EQ(found.left_out.size(), graph.wrong.size()) << "seed " << seed;
+    double right_weight = 0.0;
+    for (const auto& [pair, edge] : graph.edges)
+      right_weight += graph.wrong.contains(pair) ? 0.0 : edge.quality;
+    EXPECT_GE(found.weight, right_weight - 1e-9) << "seed " << seed;
+    right += graph.edges.size() - graph.wrong.size();
+    for (const auto& out : found.left_out) lost += graph.wrong.contains(out.pair) ? 0U : 1U;
   }
+  // Where a helmet has few right edges, a heavier wrong one may win: there doubts.hpp decides.
+  EXPECT_LT(lost, right / 50);
 }
 
 TEST(ConsistentEdgesProperty, AWithdrawnEdgeLeavesNoTrace) {
