@@ -7,6 +7,7 @@
 #include "common/base/log.hpp"
 #include "common/grid/occupancy_grid.hpp"
 #include "common/sharing/accept.hpp"
+#include "common/wire/limits.hpp"
 #include "coordinator/evidence.hpp"
 
 namespace lifeline {
@@ -178,7 +179,7 @@ void Coordinator::tell(const merging::PairNews& news, SteadyTime now) {
   record.at = now - started_;
   record.in_directive = keeper_.follows(news.pair);
   record.result.verdict = news.verdict;
-  record.result.reason = news.reason;
+  record.result.reason = news.reason.substr(0, wire::kMaxReason);
   wire::MergeEvidence evidence = to_evidence(news.pair, record.result);
   evidence.envelope = evidence_stamper_.next(clock_.wall_now());
   if (auto sent = channels_.evidence->put(evidence); !sent) spdlog::warn("{}", sent.error().text);

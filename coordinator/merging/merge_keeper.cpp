@@ -38,6 +38,7 @@ std::optional<Pose2> MergeKeeper::place_to_check(const LayerPair& pair) const {
 }
 
 std::vector<PairNews> MergeKeeper::take(const LayerPair& pair, const PairMatch& match) {
+  const std::optional<Pose2> asked = place_to_check(pair);
   std::vector<PairNews> news{apply(pair, match)};
   if (graph_.edge(pair) != nullptr) {
     graph_.set_doubted(pair, support_.in_doubt(pair));
@@ -45,6 +46,11 @@ std::vector<PairNews> MergeKeeper::take(const LayerPair& pair, const PairMatch& 
     checked_.erase(pair);
   } else if (match.check) {
     note_check(pair, *match.check);
+  } else if (asked) {
+    // Nobody can look there: asking again would not help.
+    PlaceCheck unseen;
+    unseen.figures.T_a_b = *asked;
+    checked_.insert_or_assign(pair, unseen);
   }
   plan_anew(news);
   return news;

@@ -18,7 +18,7 @@ struct MergeScheduleConfig {
   double area_y_m = 30.0;             ///< gridy of Eq. 11, as a length
   double rematch_growth_percent = 10.0;
   /// A pair is matched again when so much of a map's wall is no longer where it was.
-  double rematch_revised_percent = 8.0;
+  double rematch_revised_percent = 3.0;
   Duration min_interval = std::chrono::seconds(1);  ///< between two matches of one pair
 };
 

@@ -61,6 +61,13 @@ TEST_F(MergeKeeperTest, APairThatAGroupLaysOnEachOtherIsToBeLookedAtThere) {
   EXPECT_EQ(keeper_.plan().groups[0].size(), 3U);
 }
 
+TEST_F(MergeKeeperTest, WhereNobodyCouldLookIsNotAskedForAgain) {
+  take(alpha_bravo_, accepted(T_alpha_bravo_));
+  take(alpha_charlie_, accepted(T_alpha_charlie_));
+  take(bravo_charlie_, PairMatch{});
+  EXPECT_THAT(keeper_.unchecked(), IsEmpty());
+}
+
 TEST_F(MergeKeeperTest, WallsThatContradictThereAreAnObjectionThatIsNews) {
   take(alpha_bravo_, accepted(T_alpha_bravo_));
   take(alpha_charlie_, accepted(T_alpha_charlie_));

@@ -56,9 +56,9 @@ TEST_F(MergeScheduleTest, APairIsMatchedAgainOnceAMapHasGrown) {
 TEST_F(MergeScheduleTest, AMapThatWasCorrectedIsMatchedAgainThoughItDidNotGrow) {
   matched(alpha_, bravo_, Standing::merged);
   bravo_.changes += 200;
-  bravo_.revised_cells = bravo_.wall_cells / 20;
+  bravo_.revised_cells = bravo_.wall_cells / 50;
   EXPECT_FALSE(due({alpha_, bravo_})) << "many tiles, but the walls stand where they stood";
-  bravo_.revised_cells = bravo_.wall_cells / 10;
+  bravo_.revised_cells = bravo_.wall_cells / 20;
   EXPECT_TRUE(due({alpha_, bravo_}));
   matched(alpha_, bravo_, Standing::merged);
   EXPECT_FALSE(due({alpha_, bravo_}));
