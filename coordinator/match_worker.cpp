@@ -15,7 +15,9 @@ merging::PlaceCheck check_place(const matching::MapFeatures& a, const matching::
   const Pose2 T_b_b_local{b.origin_map_m.x(), b.origin_map_m.y(), 0.0};
   const auto measured =
       matching::measure_candidate(a, b, T_a_a_local.inverse() * T_a_b * T_b_b_local, config);
-  merging::PlaceCheck check{measured.candidate, measured.overlap_centre_b_m};
+  const auto& figures = measured.candidate;
+  merging::PlaceCheck check{figures, measured.overlap_centre_b_m,
+                            (figures.agreeing_wall_m - figures.score) / matching::kConflictWeight};
   check.figures.T_a_b = T_a_b;
   return check;
 }

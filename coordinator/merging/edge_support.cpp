@@ -63,7 +63,7 @@ bool EdgeSupport::confirm(const LayerPair& pair, const PairMatch& match) {
 
 std::string EdgeSupport::lost_support(const LayerPair& pair, const PlaceCheck& check) const {
   const auto& figures = check.figures;
-  if (figures.conflict > config_.max_conflict && check.conflict_m() > config_.min_conflict_m) {
+  if (figures.conflict > config_.max_conflict && check.conflict_m > config_.min_conflict_m) {
     return fmt::format("where the maps were merged {:.0f} % of the wall contradict now",
                        100 * figures.conflict);
   }

@@ -13,13 +13,7 @@ namespace lifeline::merging {
 struct PlaceCheck {
   matching::MatchCandidate figures;  ///< its T_a_b is the place that was looked at
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};
-
-  /// Length of the contradicting wall.
-  [[nodiscard]] double conflict_m() const {
-    return figures.conflict < 1.0
-               ? figures.agreeing_wall_m * figures.conflict / (1.0 - figures.conflict)
-               : 0.0;
-  }
+  double conflict_m = 0.0;  ///< length of the contradicting wall
 };
 
 /// Everything that a match of two layers said.

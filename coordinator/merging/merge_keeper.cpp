@@ -91,9 +91,9 @@ void MergeKeeper::note_check(const LayerPair& pair, const PlaceCheck& check) {
   checked_.insert_or_assign(pair, check);
   const bool stands = graph_.objection(pair) != nullptr;
   const double least = stands ? objection_.lifted_conflict : objection_.min_conflict;
-  if (check.figures.conflict > least && check.conflict_m() >= objection_.min_conflict_m) {
+  if (check.figures.conflict > least && check.conflict_m >= objection_.min_conflict_m) {
     graph_.object(pair, {check.figures.T_a_b, check.overlap_centre_b_m, check.figures.conflict,
-                         check.conflict_m()});
+                         check.conflict_m});
   } else {
     graph_.lift_objection(pair);
   }

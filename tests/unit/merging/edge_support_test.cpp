@@ -31,6 +31,7 @@ class EdgeSupportTest : public testing::Test {
     match.check = PlaceCheck{};
     match.check->figures.agreeing_wall_m = agreeing_m;
     match.check->figures.conflict = conflict;
+    match.check->conflict_m = agreeing_m * conflict / (1.0 - conflict);
     return match;
   }
   EdgeStep judge(const PairMatch& match, bool held = true) {

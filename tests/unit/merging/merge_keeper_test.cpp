@@ -35,6 +35,7 @@ class MergeKeeperTest : public testing::Test {
     match.check->figures.T_a_b = T_checked;
     match.check->figures.agreeing_wall_m = 20.0;
     match.check->figures.conflict = conflict;
+    match.check->conflict_m = 20.0 * conflict / (1.0 - conflict);
     return match;
   }
 
