@@ -62,6 +62,8 @@ PairNews MergeKeeper::apply(const LayerPair& pair, const PairMatch& match) {
   switch (decision.step) {
     case EdgeStep::none:
       news.reason = match.result.reason;
+      if (const auto parted = parted_.find(pair); parted != parted_.end())
+        news.reason += "; merged before, then " + parted->second;
       break;
     case EdgeStep::kept:
       news.verdict = matching::Verdict::wait;
@@ -74,6 +76,7 @@ PairNews MergeKeeper::apply(const LayerPair& pair, const PairMatch& match) {
     case EdgeStep::adopted:
     case EdgeStep::refined:
       graph_.set_edge(pair, to_edge(match.result));
+      parted_.erase(pair);
       news.reason += (news.reason.empty() ? "" : "; ") + match.result.reason;
       break;
     case EdgeStep::doubted:
@@ -81,6 +84,7 @@ PairNews MergeKeeper::apply(const LayerPair& pair, const PairMatch& match) {
       break;
     case EdgeStep::withdrawn:
       graph_.withdraw(pair);
+      parted_[pair] = decision.reason;
       news.verdict = matching::Verdict::rejected;
       break;
   }

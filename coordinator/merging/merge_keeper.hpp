@@ -58,6 +58,7 @@ class MergeKeeper {
   MergeGraph graph_;
   MergePlan plan_;
   std::map<LayerPair, PlaceCheck> checked_;  ///< of pairs without an edge
+  std::map<LayerPair, std::string> parted_;  ///< why, of pairs that are no more merged
 };
 
 /// An accepted match as an edge of the merge graph.

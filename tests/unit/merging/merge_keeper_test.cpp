@@ -39,6 +39,11 @@ class MergeKeeperTest : public testing::Test {
     return match;
   }
 
+  static PairMatch undecided() {
+    PairMatch match;
+    match.result.reason = "two places fit";
+    return match;
+  }
   void take(const LayerPair& pair, const PairMatch& match) { (void)keeper_.take(pair, match); }
 
   LayerKey alpha_ = layer("alpha"), bravo_ = layer("bravo"), charlie_ = layer("charlie");
@@ -102,6 +107,20 @@ TEST_F(MergeKeeperTest, AContradictionIsToldOnceAndNotAtEveryMatch) {
   const auto news = keeper_.take(bravo_charlie_, accepted(T_bravo_charlie_ * Pose2{2, 0, 0}));
   ASSERT_EQ(news.size(), 3U) << "two edges in doubt besides, or one of them";
   EXPECT_EQ(keeper_.take(alpha_bravo_, accepted(T_alpha_bravo_)).size(), 1U);
+}
+
+TEST_F(MergeKeeperTest, WhyAPairWasPartedIsSaidUntilItIsMergedAgain) {
+  take(alpha_bravo_, accepted(T_alpha_bravo_));
+  take(alpha_bravo_, waiting(T_alpha_bravo_, 0.3));
+  EXPECT_THAT(keeper_.take(alpha_bravo_, waiting(T_alpha_bravo_, 0.3)).front().reason,
+              HasSubstr("withdrawn: where the maps were merged 30 %"));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(keeper_.take(alpha_bravo_, undecided()).front().reason,
+              "two places fit; merged before, then withdrawn: where the maps were merged 30 % of "
+              "the wall contradict now");
+  }
+  take(alpha_bravo_, accepted(T_alpha_bravo_));
+  EXPECT_EQ(keeper_.take(alpha_bravo_, accepted(T_alpha_bravo_)).front().reason, "fits");
 }
 
 TEST_F(MergeKeeperTest, TheLeadStaysWhenASmallerNameJoins) {
