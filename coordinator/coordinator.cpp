@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "common/base/log.hpp"
 #include "common/grid/occupancy_grid.hpp"
 #include "common/sharing/accept.hpp"
+#include "common/wire/limits.hpp"
 #include "coordinator/evidence.hpp"
 
 namespace lifeline {
@@ -12,6 +15,8 @@ namespace {
 
 constexpr Duration kStatusInterval = std::chrono::seconds(1);
 constexpr Duration kCountInterval = std::chrono::milliseconds(500);
+// A correction's tiles follow each other closer than this.
+constexpr Duration kQuietAfter = std::chrono::seconds(3);
 constexpr double kPathStepM = 0.05;
 constexpr std::size_t kMaxPathPoints = 100'000;
 
@@ -24,11 +29,6 @@ std::vector<sharing::Placement> largest_group(const wire::MergeDirective& direct
       group.push_back({*std::move(key), member.T_common_map});
   }
   return group;
-}
-
-bool contradicts(const merging::MergePlan& plan, const merging::LayerPair& pair) {
-  return std::any_of(plan.contradictions.begin(), plan.contradictions.end(),
-                     [&](const auto& contradiction) { return contradiction.pair == pair; });
 }
 
 }  // namespace
@@ -53,12 +53,7 @@ void Coordinator::step() {
   hear_statuses(now);
   hear_poses();
   hear_tiles();
-  for (const auto& changed : store_.take_changed()) {
-    common_map_.mark(changed);
-    auto& progress =
-        progress_.try_emplace(changed.layer, merging::LayerProgress{changed.layer}).first->second;
-    ++progress.changes;
-  }
+  note_changes(now);
   count_known_cells(now);
   take_outcome(now);
   match_next();
@@ -79,6 +74,20 @@ void Coordinator::hear_tiles() {
     } else if (auto applied = store_.apply(sample); !applied) {
       refuse("tsd_tile", applied.error());
     }
+  }
+}
+
+void Coordinator::note_changes(SteadyTime now) {
+  for (const auto& changed : store_.take_changed()) {
+    common_map_.mark(changed);
+    auto& progress =
+        progress_.try_emplace(changed.layer, merging::LayerProgress{changed.layer}).first->second;
+    Watched& watched = watched_[changed.layer];
+    ++progress.changes;
+    watched.walls.note(changed.tile, store_.find(changed.layer)->at(changed.tile).cells);
+    watched.changed_at = now;
+    progress.wall_cells = watched.walls.wall_cells();
+    progress.revised_cells = watched.walls.revised_cells();
   }
 }
 
@@ -119,8 +128,10 @@ void Coordinator::count_known_cells(SteadyTime now) {
   for (auto& [layer, progress] : progress_) {
     const auto* entry = roster_.find(layer.agent_id.text());
     progress.finished = entry != nullptr && entry->status.state == wire::AgentState::finished;
-    if (counted_changes_[layer] == progress.changes) continue;
-    counted_changes_[layer] = progress.changes;
+    Watched& watched = watched_.at(layer);
+    progress.quiet = now - watched.changed_at >= kQuietAfter;
+    if (watched.counted == progress.changes) continue;
+    watched.counted = progress.changes;
     progress.known_cells = known_cells(to_grid(*store_.find(layer), settings_.geometry));
   }
 }
@@ -133,55 +144,57 @@ std::vector<merging::LayerProgress> Coordinator::progress() const {
 
 void Coordinator::match_next() {
   if (worker_.busy()) return;
-  const auto pair = schedule_.due(progress());
+  const auto pair = schedule_.due(progress(), clock_.steady_now(), keeper_.unchecked());
   if (!pair) return;
   const auto &a = progress_.at(pair->a), &b = progress_.at(pair->b);
-  worker_.submit({a, b, *store_.find(pair->a), *store_.find(pair->b), settings_.geometry});
+  worker_.submit({a, b, *store_.find(pair->a), *store_.find(pair->b), settings_.geometry,
+                  keeper_.place_to_check(*pair)});
 }
 
 void Coordinator::take_outcome(SteadyTime now) {
   auto outcome = worker_.take();
   if (!outcome) return;
-  schedule_.matched(outcome->a, outcome->b);
-  const merging::LayerPair pair{outcome->a.layer, outcome->b.layer};
-  await_confirmation(*outcome);
-  wire::MergeEvidence evidence = to_evidence(pair, outcome->result);
+  const auto &a = outcome->a, &b = outcome->b;
+  const merging::LayerPair pair{a.layer, b.layer};
+  const bool was_merged = keeper_.graph().edge(pair) != nullptr;
+  // Standing still does not make a young map an old one: only who is merged already is judged by
+  // it.
+  const bool last_chance =
+      (a.finished || (was_merged && a.quiet)) && (b.finished || (was_merged && b.quiet));
+  auto news = keeper_.take(pair, {outcome->result, outcome->check, last_chance});
+  schedule_.matched(a, b, now,
+                    keeper_.in_doubt(pair)  ? merging::Standing::doubted
+                    : keeper_.follows(pair) ? merging::Standing::merged
+                                            : merging::Standing::apart);
+  const std::string change = follow_plan(clock_.wall_now());
+  if (!change.empty()) news.front().reason += " [" + change + "]";
+  newest_.insert_or_assign(pair, MergeRecord{pair, std::move(outcome->result), {}, false});
+  for (const merging::PairNews& of : news) tell(of, now);
+  if (newest_.at(pair).result.accepted()) accepted_.push_back(newest_.at(pair));
+  for (MergeRecord& record : accepted_) record.in_directive = keeper_.follows(record.pair);
+}
+
+void Coordinator::tell(const merging::PairNews& news, SteadyTime now) {
+  MergeRecord& record = newest_.at(news.pair);
+  record.at = now - started_;
+  record.in_directive = keeper_.follows(news.pair);
+  record.result.verdict = news.verdict;
+  record.result.reason = news.reason.substr(0, wire::kMaxReason);
+  wire::MergeEvidence evidence = to_evidence(news.pair, record.result);
   evidence.envelope = evidence_stamper_.next(clock_.wall_now());
   if (auto sent = channels_.evidence->put(evidence); !sent) spdlog::warn("{}", sent.error().text);
-  const MergeRecord record{pair, outcome->result, now - started_, false};
-  newest_.insert_or_assign(pair, record);
-  if (!outcome->result.accepted())
-    return;  // an edge once accepted is kept until a better one replaces it
-  graph_.set_edge(pair, to_edge(outcome->result));
-  accepted_.push_back(record);
-  follow_plan(clock_.wall_now());
 }
 
-void Coordinator::await_confirmation(MatchOutcome& outcome) {
-  auto& result = outcome.result;
-  const merging::LayerPair pair{outcome.a.layer, outcome.b.layer};
-  if (!result.accepted()) {
-    confirmation_.refuse(pair);
-    return;
-  }
-  const auto& best = result.candidates.front();
-  const bool last_chance = outcome.a.finished && outcome.b.finished;
-  if (confirmation_.confirm(
-          pair, {best.T_a_b, result.overlap_centre_b_m, best.agreeing_wall_m, last_chance}))
-    return;
-  result.verdict = matching::Verdict::wait;
-  result.reason = "fits once, to be confirmed when the maps have grown: " + result.reason;
-}
-
-void Coordinator::follow_plan(Timestamp wall_now) {
-  const merging::MergePlan plan = graph_.plan();
-  for (const auto& contradiction : plan.contradictions) {
-    spdlog::warn("the merge of {} and {} contradicts the others by {:.2f} m; not followed",
-                 to_string(contradiction.pair.a), to_string(contradiction.pair.b),
-                 contradiction.distance_m);
-  }
-  for (auto& record : accepted_) record.in_directive = !contradicts(plan, record.pair);
-  if (writer_.update(plan)) send_directive(wall_now);
+std::string Coordinator::follow_plan(Timestamp wall_now) {
+  merging::Extents extents;
+  for (const auto& [layer, watched] : watched_)
+    extents.emplace(layer, watched.walls.extent(settings_.geometry.cell_size_m));
+  const auto change = writer_.update(keeper_.plan(), extents);
+  if (!change) return {};
+  const std::string text = change->describe();
+  spdlog::info("directive {}: {}", change->epoch.value, text);
+  send_directive(wall_now);
+  return fmt::format("directive {}: {}", change->epoch.value, text);
 }
 
 void Coordinator::send_directive(Timestamp wall_now) {
@@ -193,7 +206,7 @@ void Coordinator::send_directive(Timestamp wall_now) {
 }
 
 bool Coordinator::idle() const {
-  return !worker_.busy() && !schedule_.due(progress()).has_value();
+  return !worker_.busy() && !schedule_.pending(progress(), keeper_.unchecked());
 }
 
 wire::AgentStatus Coordinator::status() const {

@@ -11,9 +11,10 @@
 #include "common/sharing/fused_map.hpp"
 #include "common/sharing/roster.hpp"
 #include "common/wire/channel.hpp"
+#include "coordinator/layer_watch.hpp"
 #include "coordinator/match_worker.hpp"
-#include "coordinator/merging/confirmation.hpp"
 #include "coordinator/merging/directive_writer.hpp"
+#include "coordinator/merging/merge_keeper.hpp"
 
 namespace lifeline {
 
@@ -39,9 +40,9 @@ struct CoordinatorSettings {
 /// A pair's newest match, and when it was made.
 struct MergeRecord {
   merging::LayerPair pair;
-  matching::MatchResult result;
-  Duration at{};              ///< since the coordinator's start
-  bool in_directive = false;  ///< the directive follows this edge or agrees with it
+  matching::MatchResult result;  ///< verdict and reason as the merge graph sees them
+  Duration at{};                 ///< since the coordinator's start, of the newest view
+  bool in_directive = false;     ///< the pair is merged by its own match
 };
 
 /// The command vehicle: replicas of all layers, matching of pairs, the merge directive and the
@@ -68,20 +69,30 @@ class Coordinator {
     return newest_;
   }
   [[nodiscard]] const std::vector<MergeRecord>& accepted_matches() const { return accepted_; }
+  /// Who belongs together and which accepted matches are not followed, with the reason.
+  [[nodiscard]] const merging::MergePlan& plan() const { return keeper_.plan(); }
   /// Nothing to match now: no pair is due, none is being matched.
   [[nodiscard]] bool idle() const;
   [[nodiscard]] wire::AgentStatus status() const;
 
  private:
+  struct Watched {
+    LayerWatch walls;
+    std::size_t counted = 0;  ///< the change up to which known cells were counted
+    SteadyTime changed_at;
+  };
+
   void hear_tiles();
+  void note_changes(SteadyTime now);
   void hear_poses();
   void hear_statuses(SteadyTime now);
   void count_known_cells(SteadyTime now);
   void match_next();
   void take_outcome(SteadyTime now);
-  /// An accepted match that no earlier one seconds waits for the next.
-  void await_confirmation(MatchOutcome& outcome);
-  void follow_plan(Timestamp wall_now);
+  /// Records and publishes what has become of a pair.
+  void tell(const merging::PairNews& news, SteadyTime now);
+  /// Writes a new directive where the plan asks for one; what it changes, for people.
+  std::string follow_plan(Timestamp wall_now);
   void send_directive(Timestamp wall_now);
   void refuse(const std::string& topic, const Error& error);
   [[nodiscard]] std::vector<merging::LayerProgress> progress() const;
@@ -95,12 +106,10 @@ class Coordinator {
   sharing::FusedMap common_map_;
   sharing::Roster roster_;
   merging::MergeSchedule schedule_;
-  merging::Confirmation confirmation_;
-  merging::MergeGraph graph_;
+  merging::MergeKeeper keeper_;
   merging::DirectiveWriter writer_;
   std::map<LayerKey, merging::LayerProgress> progress_;
-  std::map<LayerKey, std::size_t>
-      counted_changes_;  ///< the change up to which known cells were counted
+  std::map<LayerKey, Watched> watched_;
   std::map<LayerKey, Path> paths_;
   std::map<merging::LayerPair, MergeRecord> newest_;
   std::vector<MergeRecord> accepted_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "common/base/check.hpp"
 #include "common/sharing/accept.hpp"
 #include "common/wire/limits.hpp"
 
@@ -40,14 +39,6 @@ wire::MergeEvidence to_evidence(const merging::LayerPair& pair,
                                    candidate.conflict, candidate.score});
   }
   return evidence;
-}
-
-merging::MergeEdge to_edge(const matching::MatchResult& result) {
-  LIFELINE_CHECK(result.accepted() && !result.candidates.empty());
-  const auto& best = result.candidates.front();
-  // Metres of agreeing wall, brought into [0, 1): ten metres count half.
-  const double wall_m = std::max(best.score, 0.0);
-  return {best.T_a_b, result.covariance, wall_m / (wall_m + 10.0)};
 }
 
 }  // namespace lifeline

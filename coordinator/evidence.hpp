@@ -10,7 +10,4 @@ namespace lifeline {
 [[nodiscard]] wire::MergeEvidence to_evidence(const merging::LayerPair& pair,
                                               const matching::MatchResult& result);
 
-/// An accepted match as an edge of the merge graph.
-[[nodiscard]] merging::MergeEdge to_edge(const matching::MatchResult& result);
-
 }  // namespace lifeline

@@ -4,8 +4,25 @@
 #include <utility>
 
 #include "common/base/check.hpp"
+#include "coordinator/matching/candidate.hpp"
 
 namespace lifeline {
+namespace {
+
+merging::PlaceCheck check_place(const matching::MapFeatures& a, const matching::MapFeatures& b,
+                                const Pose2& T_a_b, const matching::MatchConfig& config) {
+  const Pose2 T_a_a_local{a.origin_map_m.x(), a.origin_map_m.y(), 0.0};
+  const Pose2 T_b_b_local{b.origin_map_m.x(), b.origin_map_m.y(), 0.0};
+  const auto measured =
+      matching::measure_candidate(a, b, T_a_a_local.inverse() * T_a_b * T_b_b_local, config);
+  const auto& figures = measured.candidate;
+  merging::PlaceCheck check{figures, measured.overlap_centre_b_m,
+                            (figures.agreeing_wall_m - figures.score) / matching::kConflictWeight};
+  check.figures.T_a_b = T_a_b;
+  return check;
+}
+
+}  // namespace
 
 MatchOutcome Matcher::match(const MatchJob& job) {
   const auto a = features_of(job.a, job.layer_a, job.geometry);
@@ -14,9 +31,11 @@ MatchOutcome Matcher::match(const MatchJob& job) {
     matching::MatchResult refused;
     refused.verdict = matching::Verdict::rejected;
     refused.reason = a ? b.error().text : a.error().text;
-    return {job.a, job.b, refused};
+    return {job.a, job.b, refused, {}};
   }
-  return {job.a, job.b, matching::match_maps(**a, **b, config_)};
+  MatchOutcome outcome{job.a, job.b, matching::match_maps(**a, **b, config_), {}};
+  if (job.check_T_a_b) outcome.check = check_place(**a, **b, *job.check_T_a_b, config_);
+  return outcome;
 }
 
 Matcher::Features Matcher::features_of(const merging::LayerProgress& progress,

@@ -9,6 +9,7 @@
 #include "common/base/bounded_queue.hpp"
 #include "common/sharing/replica_store.hpp"
 #include "coordinator/matching/match_maps.hpp"
+#include "coordinator/merging/edge_support.hpp"
 #include "coordinator/merging/merge_schedule.hpp"
 
 namespace lifeline {
@@ -18,11 +19,14 @@ struct MatchJob {
   merging::LayerProgress a, b;
   sharing::ReplicaLayer layer_a, layer_b;
   GridGeometry geometry;
+  std::optional<Pose2> check_T_a_b{};  ///< a place to look at besides, whatever the match finds
 };
 
 struct MatchOutcome {
   merging::LayerProgress a, b;
   matching::MatchResult result;
+  std::optional<merging::PlaceCheck>
+      check{};  ///< where one was asked for and both maps can be read
 };
 
 /// Matches pairs of layers and keeps each layer's features until the layer changes. Not

@@ -36,7 +36,8 @@ set(free_files "^(agents|coordinator)/([a-z_]+_)?(main|command|settings|report)\
 set(doors
   "^(fastdds|fastrtps|fastcdr)/|^dds/(envelope|map|merge|status)" "^common/dds/" "Fast DDS stays in common/dds"
   "^pcl/" "^agents/slam/gicp_matcher\\.cpp$" "PCL stays in agents/slam/gicp_matcher.cpp"
-  "^ceres/" "^agents/slam/pose_graph\\.cpp$" "Ceres stays in agents/slam/pose_graph.cpp")
+  "^ceres/" "^(agents/slam/pose_graph|coordinator/merging/refine_places)\\.cpp$"
+    "Ceres stays in agents/slam/pose_graph.cpp and coordinator/merging/refine_places.cpp")
 
 function(report file line text)
   file(STRINGS "${ROOT}/${file}" lines)  # only for the number of the line

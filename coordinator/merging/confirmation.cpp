@@ -1,7 +1,5 @@
 #include "coordinator/merging/confirmation.hpp"
 
-#include <cmath>
-
 namespace lifeline::merging {
 
 bool Confirmation::confirm(const LayerPair& pair, const Proposal& proposal) {
@@ -16,10 +14,8 @@ void Confirmation::refuse(const LayerPair& pair) {
 }
 
 bool Confirmation::agree(const Proposal& before, const Proposal& now) const {
-  const Eigen::Vector2d& centre = now.overlap_centre_b_m;
-  return (before.T_a_b * centre - now.T_a_b * centre).norm() <= config_.same_place_m &&
-         std::abs(normalise_angle(before.T_a_b.yaw_rad - now.T_a_b.yaw_rad)) <=
-             config_.same_turn_rad;
+  return difference(before.T_a_b, now.T_a_b, now.overlap_centre_b_m)
+      .within(config_.same_place_m, config_.same_turn_rad);
 }
 
 }  // namespace lifeline::merging

@@ -10,10 +10,10 @@ namespace lifeline::merging {
 
 /// What makes one match outweigh the lack of a second.
 struct ConfirmationConfig {
-  double same_place_m =
-      0.3;  ///< two matches agree when they put the overlap's centre this close together ...
-  double same_turn_rad = 0.035;  ///< ... turned by no more than this
-  double enough_wall_m = 60.0;   ///< so much agreeing wall needs no second match
+  /// Two matches agree when they put the overlap's centre this close together ...
+  double same_place_m = kSamePlaceM;
+  double same_turn_rad = kSameTurnRad;  ///< ... turned by no more than this
+  double enough_wall_m = 60.0;          ///< so much agreeing wall needs no second match
 };
 
 /// A match that was accepted on its own figures.
@@ -21,7 +21,7 @@ struct Proposal {
   Pose2 T_a_b;
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< in b's map frame
   double agreeing_wall_m = 0.0;
-  bool last_chance = false;  ///< both maps are finished: there will be no second match
+  bool last_chance = false;  ///< neither map will change: there will be no second match
 };
 
 /// Young maps look alike in many places, and differently wrong ones a few metres later. So a pair

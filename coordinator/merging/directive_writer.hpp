@@ -1,5 +1,12 @@
 #pragma once
 
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
 #include "common/wire/messages.hpp"
 #include "coordinator/merging/merge_graph.hpp"
 
@@ -7,9 +14,26 @@ namespace lifeline::merging {
 
 /// How much a member's place must move before the fleet is told.
 struct DirectiveConfig {
-  double own_weight = 0.5;  ///< w_T1 of Eq. 8-10
-  double min_move_m = 0.01;
-  double min_turn_rad = 0.002;
+  double own_weight = 0.5;   ///< w_T1 of Eq. 8-10
+  double min_move_m = 0.03;  ///< of any corner of what the member knows
+};
+
+/// What each layer knows, as a box in its map frame.
+using Extents = std::map<LayerKey, Eigen::AlignedBox2d>;
+
+/// What a new directive changes.
+struct DirectiveChange {
+  struct Move {
+    LayerKey layer;
+    double moved_m = 0.0;  ///< the farthest that a corner of its extent moves
+  };
+  Epoch epoch;
+  std::vector<LayerKey> joined, left;  ///< members that were in no group before, or are in none now
+  std::vector<LayerKey> regrouped;     ///< members that have another lead now
+  std::vector<Move> moved;             ///< members that keep their lead, farthest first
+
+  /// For people: "bravo joins; charlie moves by 0.12 m".
+  [[nodiscard]] std::string describe() const;
 };
 
 /// Turns merge plans into directives with growing epochs. A plan that says what the last directive
@@ -19,21 +43,22 @@ class DirectiveWriter {
   DirectiveWriter(DirectiveConfig config, std::string mission_id)
       : config_(config), mission_id_(std::move(mission_id)) {}
 
-  /// True when the plan made a new directive (its envelope is still to be filled).
-  bool update(const MergePlan& plan);
+  /// What changes, when the plan made a new directive (its envelope is still to be filled). Layers
+  /// without an extent are measured at their origin.
+  std::optional<DirectiveChange> update(const MergePlan& plan, const Extents& extents = {});
 
   /// Makes the directive's epoch larger than `heard`, an epoch that some helmet follows and that we
-  /// did not write. True when there is a directive that must be sent again under its new epoch.
+  /// did not write. True when there is a directive that must be sent again under its new epoch: one
+  /// with members, or one that took them back.
   bool outrank(Epoch heard);
 
   /// Epoch 0 and no members until the first update that says something.
   [[nodiscard]] const wire::MergeDirective& directive() const { return directive_; }
 
  private:
-  [[nodiscard]] bool says_the_same(const std::vector<wire::DirectiveMember>& members) const;
-
   DirectiveConfig config_;
   std::string mission_id_;
+  bool spoke_ = false;
   wire::MergeDirective directive_;
 };
 

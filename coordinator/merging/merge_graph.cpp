@@ -2,119 +2,153 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <optional>
 #include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "coordinator/merging/doubts.hpp"
+#include "coordinator/merging/refine_places.hpp"
 
 namespace lifeline::merging {
 namespace {
 
-using EdgeRef = std::map<LayerPair, MergeEdge>::const_iterator;
+constexpr std::size_t kMaxReason = 256;
+constexpr std::size_t kMostNamed = 3;  // edges that a sentence names
 
-struct Neighbour {
-  LayerKey layer;
-  Pose2 T_here_there;
-  Eigen::Matrix3d covariance;
-  double quality;
-};
-
-using Forest = std::map<LayerKey, std::vector<Neighbour>>;
-
-// Kruskal: best quality first, ties by the pair's name.
-struct Spanning {
-  Forest forest;
-  std::vector<EdgeRef> left_out;
-};
-
-class Components {
- public:
-  LayerKey root(const LayerKey& layer) {
-    auto parent = parents_.find(layer);
-    if (parent == parents_.end()) return layer;
-    return root(parent->second);
+LayerKey choose_lead(const std::set<LayerKey>& members, const std::vector<LayerKey>& leads) {
+  for (const LayerKey& lead : leads) {
+    if (members.contains(lead)) return lead;
   }
-  bool join(const LayerKey& a, const LayerKey& b) {
-    const LayerKey root_a = root(a), root_b = root(b);
-    if (root_a == root_b) return false;
-    parents_.insert_or_assign(std::max(root_a, root_b), std::min(root_a, root_b));
-    return true;
-  }
-
- private:
-  std::map<LayerKey, LayerKey> parents_;
-};
-
-// Covariance of the inverse transform: to first order the same, turned into the other frame.
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() << std::cos(yaw_rad), -std::sin(yaw_rad), std::sin(yaw_rad),
-      std::cos(yaw_rad);
-  return turn * covariance * turn.transpose();
+  return *members.begin();
 }
 
-Spanning spanning_forest(const std::map<LayerPair, MergeEdge>& edges) {
-  std::vector<EdgeRef> order;
-  for (auto edge = edges.begin(); edge != edges.end(); ++edge) order.push_back(edge);
-  std::stable_sort(order.begin(), order.end(),
-                   [](EdgeRef x, EdgeRef y) { return x->second.quality > y->second.quality; });
-  Spanning spanning;
-  Components components;
-  for (const EdgeRef ref : order) {
-    const auto& [pair, edge] = *ref;
-    if (!components.join(pair.a, pair.b)) {
-      spanning.left_out.push_back(ref);
-      continue;
-    }
-    const Pose2 T_b_a = edge.T_a_b.inverse();
-    spanning.forest[pair.a].push_back({pair.b, edge.T_a_b, edge.covariance, edge.quality});
-    spanning.forest[pair.b].push_back(
-        {pair.a, T_b_a, turned(edge.covariance, T_b_a.yaw_rad), edge.quality});
+/// The edges of one group between its members by number.
+std::vector<PlaceEdge> edges_of(const EdgeMap& edges, const std::vector<LayerPair>& chosen,
+                                const MergeGroup& group) {
+  std::map<LayerKey, std::size_t> number;
+  for (std::size_t i = 0; i < group.size(); ++i) number.emplace(group[i].layer, i);
+  std::vector<PlaceEdge> between;
+  for (const LayerPair& pair : chosen) {
+    if (!number.contains(pair.a)) continue;
+    const MergeEdge& edge = edges.at(pair);
+    between.push_back(
+        {number.at(pair.a), number.at(pair.b), edge.T_a_b, believed_covariance(edge)});
   }
-  return spanning;
+  return between;
 }
 
-MergeGroup grow_group(const Forest& forest, const LayerKey& lead, std::set<LayerKey>& placed) {
-  MergeGroup group{{lead, Pose2{}, Eigen::Matrix3d::Zero(), 1.0}};
-  placed.insert(lead);
-  for (std::size_t next = 0; next < group.size(); ++next) {
-    const Membership here = group[next];
-    for (const Neighbour& neighbour : forest.at(here.layer)) {
-      if (!placed.insert(neighbour.layer).second) continue;
-      group.push_back({neighbour.layer, here.T_common_map * neighbour.T_here_there,
-                       here.covariance + turned(neighbour.covariance, here.T_common_map.yaw_rad),
-                       std::min(here.quality, neighbour.quality)});
+MergeGroup place_group(const EdgeMap& edges, const ConsistentEdges& consistent,
+                       const std::set<LayerKey>& members, const LayerKey& lead) {
+  const auto& places = consistent.forest.places;
+  const Pose2 T_lead_root = places.at(lead).T_root_map.inverse();
+  MergeGroup group{{lead, {}, Eigen::Matrix3d::Zero(), 1.0}};
+  for (const LayerKey& layer : members) {
+    if (layer == lead) continue;
+    double quality = 0.0;
+    for (const LayerPair& pair : consistent.chosen) {
+      if (pair.a == layer || pair.b == layer) quality = std::max(quality, edges.at(pair).quality);
     }
+    group.push_back(
+        {layer, T_lead_root * places.at(layer).T_root_map, Eigen::Matrix3d::Zero(), quality});
   }
-  std::sort(group.begin() + 1, group.end(),
-            [](const Membership& x, const Membership& y) { return x.layer < y.layer; });
+  std::vector<Pose2> start;
+  for (const Membership& member : group) start.push_back(member.T_common_map);
+  const RefinedPlaces refined = refine_places(start, edges_of(edges, consistent.chosen, group));
+  for (std::size_t i = 1; i < group.size(); ++i) {
+    group[i].T_common_map = refined.T_common_map[i];
+    group[i].covariance = refined.covariance[i];
+  }
   return group;
+}
+
+std::string join(const std::vector<LayerPair>& pairs) {
+  std::string text;
+  const std::size_t named = std::min(pairs.size(), kMostNamed);
+  for (std::size_t i = 0; i < named; ++i) {
+    const bool last = i + 1 == named && named == pairs.size();
+    if (i > 0) text += last ? " and " : ", ";
+    text += describe(pairs[i]);
+  }
+  if (pairs.size() > named) text += fmt::format(" and {} more", pairs.size() - named);
+  return text;
+}
+
+std::string name(const LayerKey& layer) {
+  return layer.map_id.value == 1 && layer.floor.value == 0 ? layer.agent_id.text()
+                                                           : to_string(layer);
 }
 
 }  // namespace
 
-MergePlan MergeGraph::plan(double max_distance_m, double max_angle_rad) const {
-  const Spanning spanning = spanning_forest(edges_);
+std::string describe(const LayerPair& pair) {
+  return name(pair.a) + "-" + name(pair.b);
+}
+
+std::string describe(const Contradiction& contradiction) {
+  const PlaceDifference off{contradiction.distance_m, contradiction.angle_rad};
+  const std::string figures = fmt::format("{:.1f} m, {:.0f} deg", off.distance_m, off.angle_deg());
+  const std::string others = join(contradiction.against);
+  std::string text;
+  switch (contradiction.why) {
+    case Contradiction::Why::outvoted:
+      text = fmt::format("contradicts {} by {}", others, figures);
+      break;
+    case Contradiction::Why::in_doubt:
+      text = fmt::format("contradicts {} by {}, and no third match decides between them", others,
+                         figures);
+      break;
+    case Contradiction::Why::walls:
+      text = fmt::format("would lay {} so that {:.1f} m of wall contradict", others,
+                         contradiction.conflict_m);
+      break;
+  }
+  return text.substr(0, kMaxReason);
+}
+
+std::optional<Pose2> MergePlan::T_a_b(const LayerPair& pair) const {
+  for (const MergeGroup& group : groups) {
+    const auto find = [&](const LayerKey& layer) {
+      return std::find_if(group.begin(), group.end(),
+                          [&](const Membership& member) { return member.layer == layer; });
+    };
+    const auto a = find(pair.a), b = find(pair.b);
+    if (a != group.end() && b != group.end()) return a->T_common_map.inverse() * b->T_common_map;
+  }
+  return std::nullopt;
+}
+
+const Contradiction* MergePlan::find(const LayerPair& pair) const {
+  const auto found = std::find_if(contradictions.begin(), contradictions.end(),
+                                  [&](const auto& other) { return other.pair == pair; });
+  return found == contradictions.end() ? nullptr : &*found;
+}
+
+const MergeEdge* MergeGraph::edge(const LayerPair& pair) const {
+  const auto found = edges_.find(pair);
+  return found == edges_.end() ? nullptr : &found->second;
+}
+
+const Objection* MergeGraph::objection(const LayerPair& pair) const {
+  const auto found = objections_.find(pair);
+  return found == objections_.end() ? nullptr : &found->second;
+}
+
+MergePlan MergeGraph::plan(const std::vector<LayerKey>& leads) const {
+  FollowedEdges followed = find_followed_edges(edges_, objections_);
+  std::map<LayerKey, std::set<LayerKey>> members;  // by root
+  for (const auto& [layer, place] : followed.consistent.forest.places)
+    members[place.root].insert(layer);
   MergePlan plan;
-  std::set<LayerKey> placed;
-  std::map<LayerKey, Pose2> T_common;
-  for (const auto& [layer, neighbours] : spanning.forest) {
-    if (placed.contains(layer)) continue;
-    plan.groups.push_back(grow_group(spanning.forest, layer, placed));
-    for (const Membership& member : plan.groups.back())
-      T_common[member.layer] = member.T_common_map;
+  plan.contradictions = std::move(followed.contradictions);
+  for (const auto& [root, layers] : members) {
+    plan.groups.push_back(
+        place_group(edges_, followed.consistent, layers, choose_lead(layers, leads)));
   }
-  std::stable_sort(plan.groups.begin(), plan.groups.end(),
-                   [](const MergeGroup& x, const MergeGroup& y) { return x.size() > y.size(); });
-  for (const EdgeRef ref : spanning.left_out) {
-    const auto& [pair, edge] = *ref;
-    const Pose2 expected = T_common.at(pair.a).inverse() * T_common.at(pair.b);
-    const Pose2 difference = expected.inverse() * edge.T_a_b;
-    const double distance_m = difference.translation().norm(),
-                 angle_rad = std::abs(difference.yaw_rad);
-    if (distance_m > max_distance_m || angle_rad > max_angle_rad) {
-      plan.contradictions.push_back({pair, distance_m, angle_rad});
-    }
-  }
+  std::stable_sort(
+      plan.groups.begin(), plan.groups.end(), [](const MergeGroup& x, const MergeGroup& y) {
+        return std::pair(y.size(), x.front().layer) < std::pair(x.size(), y.front().layer);
+      });
   return plan;
 }
 

@@ -39,6 +39,40 @@ std::optional<MatchOutcome> wait_for(MatchWorker& worker) {
   return std::nullopt;
 }
 
+/// What the matcher sees of a layer and its copy `tiles` farther along x, laid on it by T.
+std::optional<merging::PlaceCheck> check_copy(int tiles, const std::optional<Pose2>& T_a_b) {
+  MatchJob copy = job(1);
+  copy.layer_a = layer_of(0.3);
+  copy.layer_b.clear();
+  for (const auto& [tile, cells] : copy.layer_a) copy.layer_b[{tile.x + tiles, tile.y}] = cells;
+  copy.check_T_a_b = T_a_b;
+  InlineMatchWorker worker(matching::MatchConfig{});
+  worker.submit(std::move(copy));
+  return worker.take()->check;
+}
+
+TEST(InlineMatchWorker, LooksAtThePlaceThatItIsAskedFor) {
+  const double tile_m = kTileSide * GridGeometry{}.cell_size_m;
+  const auto same = check_copy(0, Pose2{}), moved = check_copy(5, Pose2{-5 * tile_m, 0.0, 0.0});
+  ASSERT_TRUE(same && moved);
+  EXPECT_GT(same->figures.agreeing_wall_m, 3.0);
+  EXPECT_EQ(same->figures.conflict, 0.0);
+  EXPECT_NEAR(moved->figures.agreeing_wall_m, same->figures.agreeing_wall_m, 0.2);
+  EXPECT_NEAR(moved->overlap_centre_b_m.x(), same->overlap_centre_b_m.x() + 5 * tile_m, 0.1);
+  EXPECT_EQ(moved->figures.T_a_b.x_m, -5 * tile_m);
+}
+
+TEST(InlineMatchWorker, FindsWallsThatContradictThere) {
+  const auto shifted = check_copy(0, Pose2{0.8, 0.4, 0.0});
+  ASSERT_TRUE(shifted);
+  EXPECT_LT(shifted->figures.agreeing_wall_m, 3.0);
+  EXPECT_GT(shifted->conflict_m, 1.0);
+}
+
+TEST(InlineMatchWorker, LooksNowhereUnasked) {
+  EXPECT_FALSE(check_copy(0, std::nullopt));
+}
+
 TEST(ThreadedMatchWorker, FindsWhatTheInlineOneFinds) {
   ThreadedMatchWorker threaded(matching::MatchConfig{});
   InlineMatchWorker inline_worker(matching::MatchConfig{});

@@ -28,6 +28,9 @@ expect(common/dds/b.hpp "#include \"dds/map.h\"" "")
 expect(agents/slam/icp_matcher.cpp "#include <pcl/registration/gicp.h>" "includes pcl/")
 expect(agents/slam/gicp_matcher.hpp "  #  include <pcl/point_types.h>" "includes pcl/")
 expect(agents/slam/gicp_matcher.cpp "#include <pcl/registration/gicp.h>" "")
+expect(coordinator/merging/merge_graph.cpp "#include <ceres/ceres.h>" "includes ceres/")
+expect(coordinator/merging/refine_places.cpp "#include <ceres/ceres.h>" "")
+expect(agents/slam/pose_graph.cpp "#include <ceres/ceres.h>" "")
 
 # layers
 expect(common/base/a.hpp "#include \"common/grid/pose2.hpp\"" "common/base may not include common/grid/pose2.hpp")

@@ -37,10 +37,48 @@ TEST_F(DirectiveWriterTest, WritesAWholeAndSoundAnswer) {
 
 TEST_F(DirectiveWriterTest, AMoveTooSmallToMatterMakesNoNewEpoch) {
   ASSERT_TRUE(writer_.update(plan({1.0, 0.0, 0.0})));
-  EXPECT_FALSE(writer_.update(plan({1.005, 0.0, 0.0})));
+  EXPECT_FALSE(writer_.update(plan({1.02, 0.0, 0.0})));
   EXPECT_EQ(writer_.directive().epoch, 1U);
-  EXPECT_TRUE(writer_.update(plan({1.02, 0.0, 0.0})));
+  EXPECT_TRUE(writer_.update(plan({1.04, 0.0, 0.0})));
   EXPECT_EQ(writer_.directive().epoch, 2U);
+}
+
+TEST_F(DirectiveWriterTest, MovesThatAddUpAreToldOnceTheSumMatters) {
+  ASSERT_TRUE(writer_.update(plan({1.0, 0.0, 0.0})));
+  EXPECT_FALSE(writer_.update(plan({1.02, 0.0, 0.0})));
+  EXPECT_TRUE(writer_.update(plan({1.04, 0.0, 0.0}))) << "measured from what the fleet was told";
+}
+
+TEST_F(DirectiveWriterTest, ASmallTurnIsTheMoveOfTheFarthestCorner) {
+  // The far corner of bravo's map is 50 m off: 0.002 rad are 0.1 m there and nothing at the origin.
+  const Extents extents{{layer("bravo"), {Eigen::Vector2d(0, 0), Eigen::Vector2d(30, 40)}}};
+  ASSERT_TRUE(writer_.update(plan({1.0, 0.0, 0.0}), extents));
+  EXPECT_FALSE(writer_.update(plan({1.0, 0.0, 0.0005}), extents));
+  const auto change = writer_.update(plan({1.0, 0.0, 0.002}), extents);
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->moved.front().layer, layer("bravo"));
+  EXPECT_NEAR(change->moved.front().moved_m, 0.1, 1e-6);
+  EXPECT_EQ(change->describe(), "bravo moves by 0.10 m");
+}
+
+TEST_F(DirectiveWriterTest, WhoJoinsAndLeavesIsNamed) {
+  auto change = writer_.update(plan({}));
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->describe(), "joined: alpha, bravo");
+  change = writer_.update(MergePlan{});
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->describe(), "left: alpha, bravo");
+  EXPECT_EQ(change->epoch, Epoch{2});
+}
+
+TEST_F(DirectiveWriterTest, AnotherLeadIsNamedAsAnotherCommonFrame) {
+  ASSERT_TRUE(writer_.update(plan({1.0, 0.0, 0.0})));
+  MergeGraph graph;
+  graph.set_edge({layer("alpha"), layer("bravo")},
+                 {{1.0, 0.0, 0.0}, Eigen::Matrix3d::Identity(), 0.5});
+  const auto change = writer_.update(graph.plan({layer("bravo")}));
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->describe(), "another common frame: alpha, bravo");
 }
 
 TEST_F(DirectiveWriterTest, AnEmptyPlanWithdrawsTheMembers) {
@@ -57,6 +95,13 @@ TEST_F(DirectiveWriterTest, ANewCoordinatorOutranksWhatHelmetsStillFollow) {
   EXPECT_FALSE(writer_.outrank(Epoch{42})) << "our own epoch, heard back";
   EXPECT_TRUE(writer_.outrank(Epoch{50}));
   EXPECT_EQ(writer_.directive().epoch, 51U);
+}
+
+TEST_F(DirectiveWriterTest, AWithdrawalIsRepeatedAboveWhateverHelmetsFollow) {
+  ASSERT_TRUE(writer_.update(plan({})));
+  ASSERT_TRUE(writer_.update(MergePlan{}));
+  EXPECT_TRUE(writer_.outrank(Epoch{7}));
+  EXPECT_EQ(writer_.directive().epoch, 8U);
 }
 
 TEST_F(DirectiveWriterTest, AnAbsurdEpochIsNotFollowed) {
