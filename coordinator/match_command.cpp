@@ -73,6 +73,11 @@ std::string to_json(const matching::MatchResult& result) {
   }
   json["margin"] = result.margin;
   if (result.control_score) json["control_score"] = *result.control_score;
+  if (result.bend) {
+    json["bend"] = {{"rate_rad_per_m", result.bend->rate_rad_per_m},
+                    {"rate_sd_rad_per_m", result.bend->rate_sd_rad_per_m},
+                    {"over_overlap_rad", result.bend->over_overlap_rad}};
+  }
   json["match_ms"] = result.match_ms;
   json["candidates"] = nlohmann::ordered_json::array();
   for (const auto& candidate : result.candidates) json["candidates"].push_back(to_json(candidate));

@@ -24,9 +24,17 @@ double allowed_conflict(double agreeing_wall_m) {
   return kLimits.min_conflict + share * (kLimits.max_conflict - kLimits.min_conflict);
 }
 
+double in_degrees(double angle_rad) {
+  return angle_rad * 180.0 / std::numbers::pi;
+}
+
+bool is_bent(const Bend& bend) {
+  return bend.rate_rad_per_m > kLimits.max_bend_rad_per_m &&
+         bend.rate_rad_per_m > kLimits.min_bend_sds * bend.rate_sd_rad_per_m;
+}
+
 std::string place(const Pose2& T) {
-  return fmt::format("({:.1f} m, {:.1f} m, {:.0f} deg)", T.x_m, T.y_m,
-                     T.yaw_rad * 180.0 / std::numbers::pi);
+  return fmt::format("({:.1f} m, {:.1f} m, {:.0f} deg)", T.x_m, T.y_m, in_degrees(T.yaw_rad));
 }
 
 double margin_of(const MatchResult& result) {
@@ -99,6 +107,15 @@ Judgement judge_oriented(const MatchResult& result, const MatchConfig& config) {
                 "the shared walls run one way only ({:.1f} m across, {:.1f} m needed): the maps "
                 "could slide along them",
                 best.constraint_m, kLimits.min_constraint_m)};
+  }
+  if (result.bend && is_bent(*result.bend)) {
+    return {Verdict::wait,
+            fmt::format("the maps are bent against each other by {:.1f} deg where they overlap "
+                        "({:.2f} deg per metre, at most {:.2f} may be): one rigid transform cannot "
+                        "join them",
+                        in_degrees(result.bend->over_overlap_rad),
+                        in_degrees(result.bend->rate_rad_per_m),
+                        in_degrees(kLimits.max_bend_rad_per_m))};
   }
   if (const std::string reason = fails_paper(best, config); !reason.empty()) {
     return {Verdict::wait, reason};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "coordinator/matching/map_features.hpp"
 #include "coordinator/matching/match_types.hpp"
 
@@ -14,7 +16,10 @@ struct AcceptanceLimits {
   double much_wall_m = 20.0;         ///< agreeing wall from which on max_conflict counts
   double min_margin = 0.5;           ///< by which the best leads the second hypothesis
   double min_control_ratio = 2.0;    ///< to the score that the mirror image of a map gets
-  double min_constraint_m = 0.8;     ///< else the maps could slide along each other
+  double max_bend_rad_per_m =
+      0.04 * std::numbers::pi / 180.0;  ///< more than one rigid transform can do for
+  double min_bend_sds = 3.0;            ///< a smaller bend may be the walls' noise
+  double min_constraint_m = 0.8;        ///< else the maps could slide along each other
 };
 
 /// Fills in margin, verdict and reason from the candidates of `result`. In doubt the verdict is

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "coordinator/matching/bend.hpp"
 #include "coordinator/matching/candidate.hpp"
 #include "coordinator/matching/compare_walls.hpp"
 #include "coordinator/matching/correlate_walls.hpp"
@@ -97,6 +98,8 @@ MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b, const Mat
     const MeasuredCandidate measured = measure_candidate(a, b, h.T_a_b, config);
     if (result.candidates.empty()) {
       result.overlap_centre_b_m = measured.overlap_centre_b_m;
+      const Eigen::Vector2d centre_b = measured.overlap_centre_b_m - b.origin_map_m;
+      result.bend = estimate_bend(a, b, h.T_a_b, h.T_a_b * centre_b);
       result.covariance = covariance_in_map_frames(a, b, h.T_a_b);
     }
     result.candidates.push_back(measured.candidate);

@@ -42,6 +42,14 @@ struct MatchCandidate {
   double score = 0.0;         ///< agreeing less contradicting wall, in metres
 };
 
+/// How much the maps are bent against each other where they overlap: by heading drift the rotation
+/// that lays one on the other changes from place to place.
+struct Bend {
+  double rate_rad_per_m = 0.0;     ///< change of the rotation per metre
+  double rate_sd_rad_per_m = 1.0;  ///< standard deviation of the rate
+  double over_overlap_rad = 0.0;   ///< rate times the extent of the shared walls
+};
+
 enum class Verdict {
   accepted,  ///< the maps may be merged by T_a_b
   wait,      ///< not decided: the maps must grow first
@@ -62,6 +70,7 @@ struct MatchResult {
   /// Score of the best place of b's mirror image on a, where that was asked for: what walls of this
   /// style give by chance.
   std::optional<double> control_score;
+  std::optional<Bend> bend;  ///< of the best candidate; only Method::oriented measures it
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the best T_a_b: x_m, y_m, yaw_rad
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< middle of the agreeing wall, in b's frame
   double match_ms = 0.0;                         ///< time of match_maps alone
