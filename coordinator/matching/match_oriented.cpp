@@ -11,6 +11,7 @@
 #include "coordinator/matching/correlate_walls.hpp"
 #include "coordinator/matching/hypotheses.hpp"
 #include "coordinator/matching/refine.hpp"
+#include "coordinator/matching/stop_watch.hpp"
 
 namespace lifeline::matching {
 namespace {
@@ -91,9 +92,12 @@ void refine_all(const MapFeatures& a, const MapFeatures& b, std::vector<Hypothes
 }  // namespace
 
 MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config) {
-  std::vector<Hypothesis> hypotheses = search(a, b, config.rotation_candidates);
-  refine_all(a, b, hypotheses);
   MatchResult result;
+  StopWatch watch;
+  std::vector<Hypothesis> hypotheses = search(a, b, config.rotation_candidates);
+  result.steps_ms.search = watch.lap_ms();
+  refine_all(a, b, hypotheses);
+  result.steps_ms.refine = watch.lap_ms();
   for (const Hypothesis& h : hypotheses) {
     const MeasuredCandidate measured = measure_candidate(a, b, h.T_a_b, config);
     if (result.candidates.empty()) {
@@ -104,6 +108,7 @@ MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b, const Mat
     }
     result.candidates.push_back(measured.candidate);
   }
+  result.steps_ms.figures = watch.lap_ms();
   return result;
 }
 

@@ -106,6 +106,7 @@ Result<std::vector<MergePair>> load_pairs(const std::filesystem::path& folder) {
     pair.name = row.at("pair");
     pair.kind = row.at("kind");
     pair.building_a = row.at("building_a");
+    pair.building_b = row.at("building_b");
     pair.overlap = number(row, "true_overlap");
     if (!row.at("T_a_b_x_m").empty()) {
       pair.T_a_b =
@@ -149,6 +150,7 @@ std::vector<MergePair> simulate_pairs(int buildings) {
       if (!features_a || !features_b) continue;
       MergePair pair{fmt::format("office{}_{:.0f}s", building, until_s),
                      "same",
+                     fmt::format("office{}", building),
                      fmt::format("office{}", building),
                      0.0,
                      a.T_world_map.inverse() * b.T_world_map,
