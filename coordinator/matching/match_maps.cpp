@@ -76,8 +76,10 @@ MatchResult match_maps(const MapFeatures& a, const MapFeatures& b, const MatchCo
     if (result.accepted() && config.method == Method::oriented) {
       // Costs as much as the match: asked only of what is about to be believed.
       StopWatch watch;
-      result.control_score =
-          in_order ? best_score(a, *b.mirror, config) : best_score(b, *a.mirror, config);
+      const double ratio = config.limits.min_control_ratio;
+      const double least = ratio > 0.0 ? result.candidates.front().score / ratio : 0.0;
+      result.control_score = in_order ? best_score(a, *b.mirror, config, least)
+                                      : best_score(b, *a.mirror, config, least);
       result.steps_ms.control = watch.lap_ms();
       judge(a, b, config, result);
     }
