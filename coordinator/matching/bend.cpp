@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "coordinator/matching/refine.hpp"
 #include "coordinator/matching/rigid2f.hpp"
 
 namespace lifeline::matching {
@@ -18,8 +19,8 @@ using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// Wide at first: the ends of bent maps lie up to half a metre apart.
-constexpr std::array<float, 9> kScales_m{0.35F, 0.30F, 0.25F, 0.20F, 0.15F,
-                                         0.10F, 0.07F, 0.05F, 0.05F};
+constexpr std::array<float, 4> kSkeletonScales_m{0.35F, 0.25F, 0.18F, 0.12F};
+constexpr std::array<float, 3> kWallScales_m{0.08F, 0.05F, 0.05F};
 constexpr float kMinCosine = 0.8F;
 constexpr float kMaxAlong_m = 0.3F;
 constexpr double kMinWall_m = 1.0;
@@ -48,7 +49,7 @@ struct BentTransform {
   [[nodiscard]] Eigen::Vector2f turn(const Eigen::Vector2f& p, const Eigen::Vector2f& normal,
                                      float sign) const {
     const Complex factor = 1.0F + sign * k * to_complex(p - centre);
-    return to_vector(factor / std::abs(factor) * to_complex(normal));
+    return to_vector(factor * to_complex(normal)) / std::sqrt(std::norm(factor));
   }
 };
 
@@ -83,17 +84,18 @@ struct Sums {
   }
 };
 
-Sums collect(const MapFeatures& a, const MapFeatures& b, const BentTransform& bent, float scale_m) {
+Sums collect(const MapFeatures& a, const MapFeatures& b, const BentTransform& bent, float scale_m,
+             WallDetail detail) {
   Sums sums;
   const Rigid2f transform(bent.T_a_b), inverse(bent.T_a_b.inverse());
-  for (const WallPoint& wall : b.walls) {
+  for (const WallPoint& wall : detail == WallDetail::all ? b.walls : b.skeleton) {
     const Eigen::Vector2f p = transform * wall.p;
     const int i =
         a.field.nearest(bent.bend(p, 1.0F), bent.turn(p, transform.turn(wall.normal), 1.0F));
     if (i == WallField::kNone) continue;
     sums.add(wall, a.walls[static_cast<std::size_t>(i)], bent, transform, scale_m);
   }
-  for (const WallPoint& wall : a.walls) {
+  for (const WallPoint& wall : detail == WallDetail::all ? a.walls : a.skeleton) {
     const Eigen::Vector2f p = bent.bend(wall.p, -1.0F);
     const int i = b.field.nearest(inverse * p, inverse.turn(bent.turn(wall.p, wall.normal, -1.0F)));
     if (i == WallField::kNone) continue;
@@ -121,13 +123,18 @@ Bend estimate_bend(const MapFeatures& a, const MapFeatures& b, const Pose2& T_a_
                    const Eigen::Vector2d& centre_a) {
   constexpr Bend kNothingKnown{0.0, 1.0, 0.0};
   BentTransform bent{T_a_b_local, {}, centre_a.cast<float>()};
-  for (const float scale_m : kScales_m) {
-    const Sums sums = collect(a, b, bent, scale_m);
+  for (const float scale_m : kSkeletonScales_m) {
+    const Sums sums = collect(a, b, bent, scale_m, WallDetail::skeleton);
     if (sums.weight_m < kMinWall_m) return kNothingKnown;
     move(sums, bent);
   }
-  const Sums sums = collect(a, b, bent, kScales_m.back());
-  if (sums.weight_m < kMinWall_m || !bent.T_a_b.is_finite()) return kNothingKnown;
+  Sums sums;
+  for (const float scale_m : kWallScales_m) {
+    sums = collect(a, b, bent, scale_m, WallDetail::all);
+    if (sums.weight_m < kMinWall_m) return kNothingKnown;
+    move(sums, bent);
+  }
+  if (!bent.T_a_b.is_finite()) return kNothingKnown;
   const double variance = std::max(kMinNoise_m * kMinNoise_m, sums.squares / sums.weight_m);
   const Matrix5 information = sums.information / (2 * kCorrelation_m * variance);
   const Matrix5 covariance = (information + Matrix5::Identity()).inverse();

@@ -57,8 +57,19 @@ Eigen::Vector2d middle_of(const std::vector<WallPoint>& walls) {
   return walls.empty() ? sum : Eigen::Vector2d(sum / static_cast<double>(walls.size()));
 }
 
-/// The highest peaks of the correlation, over all rotations that the spectra propose.
-std::vector<Hypothesis> search(const MapFeatures& a, const MapFeatures& b, std::size_t rotations) {
+/// Of hypotheses from best to worst, drops those below `share` of the best one, or of `least` where
+/// that is more.
+void drop_hopeless(std::vector<Hypothesis>& hypotheses, double share, double least) {
+  if (hypotheses.empty()) return;
+  const double bound = share * std::max(hypotheses.front().score, least);
+  const std::size_t always = least > 0.0 ? 0 : kAlwaysRefined;
+  while (hypotheses.size() > always && hypotheses.back().score < bound) hypotheses.pop_back();
+}
+
+/// The highest peaks of the correlation, over all rotations that the spectra propose. `least`: as
+/// of refine_all().
+std::vector<Hypothesis> search(const MapFeatures& a, const MapFeatures& b, std::size_t rotations,
+                               double least) {
   const Spectrum correlation = circular_correlation(a.oriented, b.oriented);
   std::vector<Hypothesis> hypotheses;
   for (const SpectrumPeak& peak : circular_maxima(correlation, kRotationSeparation, rotations)) {
@@ -70,18 +81,10 @@ std::vector<Hypothesis> search(const MapFeatures& a, const MapFeatures& b, std::
     }
   }
   keep_best(hypotheses, kPeaks);
+  if (least > 0.0) drop_hopeless(hypotheses, kHopefulRough, least);
   for (Hypothesis& h : hypotheses) h.score = coarse_score(a, b, h.T_a_b, kSearchGate);
   keep_best(hypotheses, kRefinedCoarsely);
   return hypotheses;
-}
-
-/// Of hypotheses from best to worst, drops those below `share` of the best one, or of `least` where
-/// that is more.
-void drop_hopeless(std::vector<Hypothesis>& hypotheses, double share, double least) {
-  if (hypotheses.empty()) return;
-  const double bound = share * std::max(hypotheses.front().score, least);
-  const std::size_t always = least > 0.0 ? 0 : kAlwaysRefined;
-  while (hypotheses.size() > always && hypotheses.back().score < bound) hypotheses.pop_back();
 }
 
 /// All on the skeletons first, then the best and distinct ones on all walls. `least`: a score below
@@ -112,7 +115,7 @@ void refine_all(const MapFeatures& a, const MapFeatures& b, double least,
 MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config) {
   MatchResult result;
   StopWatch watch;
-  std::vector<Hypothesis> hypotheses = search(a, b, config.rotation_candidates);
+  std::vector<Hypothesis> hypotheses = search(a, b, config.rotation_candidates, 0.0);
   result.steps_ms.search = watch.lap_ms();
   refine_all(a, b, 0.0, hypotheses);
   result.steps_ms.refine = watch.lap_ms();
@@ -132,7 +135,7 @@ MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b, const Mat
 
 double best_score(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config,
                   double least) {
-  std::vector<Hypothesis> hypotheses = search(a, b, config.rotation_candidates);
+  std::vector<Hypothesis> hypotheses = search(a, b, config.rotation_candidates, least);
   refine_all(a, b, least, hypotheses);
   return hypotheses.empty() ? 0.0 : std::max(0.0, hypotheses.front().score);
 }
