@@ -32,10 +32,13 @@ class BadMapsTest : public testing::Test {
                              "\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
   }
 
+  void put(const std::string& name, const std::string& content) {
+    ASSERT_TRUE(exists(folder_.write(name, content)));
+  }
+
   // A square of `side` pixels.
   void write_pgm(int side, const std::string& pixels) {
-    folder_.write("map.pgm",
-                  "P5\n" + std::to_string(side) + " " + std::to_string(side) + "\n255\n" + pixels);
+    put("map.pgm", "P5\n" + std::to_string(side) + " " + std::to_string(side) + "\n255\n" + pixels);
   }
 
   // Refused in either place; all of `words` stand in the one line that is printed.
@@ -46,7 +49,7 @@ class BadMapsTest : public testing::Test {
       const bool wall = column == 20 || column == 40 || row == 20 || row == 40;
       room += static_cast<char>(wall ? 0 : 254);
     }
-    folder_.write("good.pgm", room);
+    put("good.pgm", room);
     const path good =
         folder_.write("good.yaml",
                       "image: good.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n"
@@ -80,9 +83,9 @@ TEST_F(BadMapsTest, OfOneCell) {
 }
 
 TEST_F(BadMapsTest, BeyondTheLimit) {
-  folder_.write("map.pgm", "P5\n20000 20000\n255\n");
+  put("map.pgm", "P5\n20000 20000\n255\n");
   expect_refused(write_yaml("map.pgm"), {"map.pgm", "20000 x 20000", "at most", "100000000"});
-  folder_.write("map.png", kPngStart + kHugeHeader + kPixelsBegin);
+  put("map.png", kPngStart + kHugeHeader + kPixelsBegin);
   expect_refused(write_yaml("map.png"), {"map.png", "20000 x 20000", "at most", "100000000"});
 }
 
@@ -97,7 +100,7 @@ TEST_F(BadMapsTest, WithAnOriginThatIsNoNumber) {
 }
 
 TEST_F(BadMapsTest, WithAPngThatEndsTooEarly) {
-  folder_.write("map.png", kPngStart + kSmallHeader + kPixelsBegin + "\x78\x01");
+  put("map.png", kPngStart + kSmallHeader + kPixelsBegin + "\x78\x01");
   expect_refused(write_yaml("map.png"), {"map.png", "PNG"});
 }
 
