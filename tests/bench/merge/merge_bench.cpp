@@ -11,6 +11,7 @@
 
 #include "tests/bench/merge/cross_validation.hpp"
 #include "tests/bench/merge/fleet_pairs.hpp"
+#include "tests/bench/merge/handheld_maps.hpp"
 #include "tests/bench/merge/merge_pairs.hpp"
 #include "tests/bench/merge/negatives.hpp"
 #include "tests/bench/merge/path_report.hpp"
@@ -81,6 +82,8 @@ int run_pairs(const Options& options) {
   write_folds(*loaded, report);
   tell("ten helmets on one floor");
   write_fleet_rows(report);
+  tell("hand-held maps");
+  write_handheld_rows(options.pairs.parent_path(), report);
   return finish(report, options.out);
 }
 
