@@ -88,7 +88,10 @@ int run_pairs(const Options& options) {
 }
 
 int run_hard_negatives(const Options& options) {
-  const NegativesOutcome outcome = run_negatives(*options.negatives, options.plans, {});
+  const NegativesOutcome outcome = run_negatives(
+      *options.negatives, options.plans, {}, [](std::size_t pairs, std::size_t wrong) {
+        tell(fmt::format("{} pairs, {} merged wrongly", pairs, wrong));
+      });
   Report report{"merge --negatives", describe_machine(), {}};
   for (const NegativeKind& kind : outcome.kinds) {
     report.rows.push_back({fmt::format("{}: merged wrongly of {}", kind.name, kind.pairs),

@@ -100,6 +100,8 @@ class Tally {
   }
 
   [[nodiscard]] bool done() const { return left_ == 0; }
+  [[nodiscard]] std::size_t left() const { return left_; }
+  [[nodiscard]] std::size_t wrong() const { return outcome_.wrong.size(); }
   [[nodiscard]] NegativesOutcome take() { return std::move(outcome_); }
 
   /// `T_a_b`: the truth where there is one.
@@ -152,7 +154,8 @@ void match_across(const MappedFloor& one, const MappedFloor& other, Kind kind, T
 }  // namespace
 
 NegativesOutcome run_negatives(std::size_t pairs, const std::filesystem::path& plans,
-                               const matching::MatchConfig& config) {
+                               const matching::MatchConfig& config,
+                               const std::function<void(std::size_t, std::size_t)>& tell) {
   constexpr int kViews = 8;
   constexpr std::size_t kOthers = 12;  // earlier floors that a floor is held against
   const auto houses = houseexpo_files(plans);
@@ -175,6 +178,7 @@ NegativesOutcome run_negatives(std::size_t pairs, const std::filesystem::path& p
     }
     if (floors.size() == kOthers) floors.erase(floors.begin());
     floors.push_back(std::move(mapped));
+    if (tell) tell(pairs - tally.left(), tally.wrong());
   }
   return tally.take();
 }
