@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -22,22 +23,33 @@ struct LoadedMap {
   matching::MapFeatures features;
 };
 
+/// Takes the features. A map that shows no wall is refused: helmets' maps grow, saved ones do not.
+template <class Map>
+Result<LoadedMap> describe(const std::filesystem::path& file, const Map& map,
+                           OccupancyGrid occupancy) {
+  auto features = matching::build_features(map);
+  if (!features) return fail(features.error().code, "{}: {}", file.string(), features.error().text);
+  if (features->walls.empty()) {
+    return fail(ErrorCode::bad_data,
+                "{}: no wall in {} x {} cells, {:.1f} m2 of them known: nothing to match",
+                file.string(), occupancy.columns, occupancy.rows, features->known_m2);
+  }
+  return LoadedMap{std::move(occupancy), *std::move(features)};
+}
+
 Result<LoadedMap> load(const std::filesystem::path& file) {
   if (file.extension() == ".lifemap") {
-    auto saved = files::load_map(file);
+    const auto saved = files::load_map(file);
     if (!saved) return forward_error(saved);
-    auto features = matching::build_features(saved->grid);
-    if (!features)
-      return fail(features.error().code, "{}: {}", file.string(), features.error().text);
     auto occupancy = to_occupancy(saved->grid);
-    if (!occupancy) return forward_error(occupancy);
-    return LoadedMap{*std::move(occupancy), *std::move(features)};
+    if (!occupancy)
+      return fail(occupancy.error().code, "{}: {}", file.string(), occupancy.error().text);
+    return describe(file, saved->grid, *std::move(occupancy));
   }
   auto occupancy = files::read_occupancy_image(file);
   if (!occupancy) return forward_error(occupancy);
-  auto features = matching::build_features(*occupancy);
-  if (!features) return fail(features.error().code, "{}: {}", file.string(), features.error().text);
-  return LoadedMap{*std::move(occupancy), *std::move(features)};
+  const OccupancyGrid grid = *occupancy;
+  return describe(file, grid, *std::move(occupancy));
 }
 
 nlohmann::ordered_json to_json(const Pose2& pose) {
@@ -73,7 +85,17 @@ std::string to_json(const matching::MatchResult& result) {
   }
   json["margin"] = result.margin;
   if (result.control_score) json["control_score"] = *result.control_score;
+  if (result.bend) {
+    json["bend"] = {{"rate_rad_per_m", result.bend->rate_rad_per_m},
+                    {"rate_sd_rad_per_m", result.bend->rate_sd_rad_per_m},
+                    {"over_overlap_rad", result.bend->over_overlap_rad}};
+  }
   json["match_ms"] = result.match_ms;
+  const matching::StepTimes& steps = result.steps_ms;
+  json["steps_ms"] = {{"search", steps.search},
+                      {"refine", steps.refine},
+                      {"figures", steps.figures},
+                      {"control", steps.control}};
   json["candidates"] = nlohmann::ordered_json::array();
   for (const auto& candidate : result.candidates) json["candidates"].push_back(to_json(candidate));
   return json.dump(1) + "\n";

@@ -9,7 +9,6 @@
 namespace lifeline::matching {
 namespace {
 
-constexpr AcceptanceLimits kLimits;
 constexpr std::size_t kMaxReason = 256;
 
 struct Judgement {
@@ -19,14 +18,22 @@ struct Judgement {
 
 /// Wrong places in regular buildings share tens of metres of wall, but more of it contradicts than
 /// drift and clutter explain in young maps: the less wall speaks, the less of it may contradict.
-double allowed_conflict(double agreeing_wall_m) {
-  const double share = std::min(1.0, agreeing_wall_m / kLimits.much_wall_m);
-  return kLimits.min_conflict + share * (kLimits.max_conflict - kLimits.min_conflict);
+double allowed_conflict(const AcceptanceLimits& limits, double agreeing_wall_m) {
+  const double share = std::min(1.0, agreeing_wall_m / limits.much_wall_m);
+  return limits.min_conflict + share * (limits.max_conflict - limits.min_conflict);
+}
+
+double in_degrees(double angle_rad) {
+  return angle_rad * 180.0 / std::numbers::pi;
+}
+
+bool is_bent(const AcceptanceLimits& limits, const Bend& bend) {
+  return bend.rate_rad_per_m > limits.max_bend_rad_per_m &&
+         bend.rate_rad_per_m > limits.min_bend_sds * bend.rate_sd_rad_per_m;
 }
 
 std::string place(const Pose2& T) {
-  return fmt::format("({:.1f} m, {:.1f} m, {:.0f} deg)", T.x_m, T.y_m,
-                     T.yaw_rad * 180.0 / std::numbers::pi);
+  return fmt::format("({:.1f} m, {:.1f} m, {:.0f} deg)", T.x_m, T.y_m, in_degrees(T.yaw_rad));
 }
 
 double margin_of(const MatchResult& result) {
@@ -61,25 +68,37 @@ Judgement judge_spectra(const MatchResult& result, const MatchConfig& config) {
 }
 
 Judgement judge_oriented(const MatchResult& result, const MatchConfig& config) {
+  const AcceptanceLimits& limits = config.limits;
   const MatchCandidate& best = result.candidates.front();
-  if (best.agreeing_wall_m < kLimits.min_agreeing_wall_m) {
+  if (best.agreeing_wall_m < limits.min_agreeing_wall_m) {
     return {Verdict::wait,
             fmt::format("only {:.1f} m of wall agree at the best place, {:.1f} m needed",
-                        best.agreeing_wall_m, kLimits.min_agreeing_wall_m)};
+                        best.agreeing_wall_m, limits.min_agreeing_wall_m)};
   }
-  if (best.conflict > kLimits.max_conflict) {
+  // Before the conflicts: at the far ends a bend looks like one.
+  if (result.margin >= limits.min_margin && result.bend && is_bent(limits, *result.bend)) {
+    return {Verdict::wait,
+            fmt::format("the maps are bent against each other by {:.1f} deg where they overlap "
+                        "({:.2f} deg per metre, at most {:.2f} may be): one rigid transform cannot "
+                        "join them",
+                        in_degrees(result.bend->over_overlap_rad),
+                        in_degrees(result.bend->rate_rad_per_m),
+                        in_degrees(limits.max_bend_rad_per_m))};
+  }
+  if (best.conflict > limits.max_conflict) {
     return {
         Verdict::rejected,
         fmt::format("{:.0f} % of the wall at the best place stands in space that the other map saw "
                     "free, at most {:.0f} % may",
-                    100 * best.conflict, 100 * kLimits.max_conflict)};
+                    100 * best.conflict, 100 * limits.max_conflict)};
   }
-  if (const double allowed = allowed_conflict(best.agreeing_wall_m); best.conflict > allowed) {
+  if (const double allowed = allowed_conflict(limits, best.agreeing_wall_m);
+      best.conflict > allowed) {
     return {Verdict::wait, fmt::format("{:.1f} % of the wall contradicts, too much for {:.1f} m "
                                        "that agree: at most {:.1f} % may",
                                        100 * best.conflict, best.agreeing_wall_m, 100 * allowed)};
   }
-  if (result.margin < kLimits.min_margin) {
+  if (result.margin < limits.min_margin) {
     return {
         Verdict::wait,
         fmt::format("two places fit: {} with {:.1f} m and {} with {:.1f} m of wall; the maps must "
@@ -87,18 +106,18 @@ Judgement judge_oriented(const MatchResult& result, const MatchConfig& config) {
                     place(best.T_a_b), best.score, place(result.candidates[1].T_a_b),
                     result.candidates[1].score)};
   }
-  if (result.control_score && best.score < kLimits.min_control_ratio * *result.control_score) {
+  if (result.control_score && best.score < limits.min_control_ratio * *result.control_score) {
     return {Verdict::wait,
             fmt::format("a map's mirror image fits the other with {:.1f} m of wall, the map itself "
                         "with {:.1f} m: too little to be no chance",
                         *result.control_score, best.score)};
   }
-  if (best.constraint_m < kLimits.min_constraint_m) {
+  if (best.constraint_m < limits.min_constraint_m) {
     return {Verdict::wait,
             fmt::format(
                 "the shared walls run one way only ({:.1f} m across, {:.1f} m needed): the maps "
                 "could slide along them",
-                best.constraint_m, kLimits.min_constraint_m)};
+                best.constraint_m, limits.min_constraint_m)};
   }
   if (const std::string reason = fails_paper(best, config); !reason.empty()) {
     return {Verdict::wait, reason};

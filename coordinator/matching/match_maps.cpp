@@ -1,6 +1,5 @@
 #include "coordinator/matching/match_maps.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "coordinator/matching/acceptance.hpp"
 #include "coordinator/matching/match_oriented.hpp"
 #include "coordinator/matching/match_spectra.hpp"
+#include "coordinator/matching/stop_watch.hpp"
 
 namespace lifeline::matching {
 namespace {
@@ -61,7 +61,7 @@ const char* to_string(Method method) {
 }
 
 MatchResult match_maps(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config) {
-  const auto start = std::chrono::steady_clock::now();
+  StopWatch whole;
   MatchResult result;
   // Cell sizes come from files: equal ones may differ in the last digits.
   if (std::abs(a.cell_size_m - b.cell_size_m) > 1e-6) {
@@ -75,13 +75,16 @@ MatchResult match_maps(const MapFeatures& a, const MapFeatures& b, const MatchCo
     judge(a, b, config, result);
     if (result.accepted() && config.method == Method::oriented) {
       // Costs as much as the match: asked only of what is about to be believed.
-      result.control_score =
-          in_order ? best_score(a, *b.mirror, config) : best_score(b, *a.mirror, config);
+      StopWatch watch;
+      const double ratio = config.limits.min_control_ratio;
+      const double least = ratio > 0.0 ? result.candidates.front().score / ratio : 0.0;
+      result.control_score = in_order ? best_score(a, *b.mirror, config, least)
+                                      : best_score(b, *a.mirror, config, least);
+      result.steps_ms.control = watch.lap_ms();
       judge(a, b, config, result);
     }
   }
-  result.match_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  result.match_ms = whole.lap_ms();
   return result;
 }
 

@@ -11,8 +11,10 @@ namespace lifeline::matching {
 [[nodiscard]] MatchResult match_oriented(const MapFeatures& a, const MapFeatures& b,
                                          const MatchConfig& config);
 
-/// The score of the best place at which b lies on a: of b's mirror image, what chance gives.
+/// The score of the best place at which b lies on a: of b's mirror image, what chance gives. Only
+/// scores of `least` and more are exact; places that are far from it are not looked at closely, and
+/// the answer is 0 where there are no others.
 [[nodiscard]] double best_score(const MapFeatures& a, const MapFeatures& b,
-                                const MatchConfig& config);
+                                const MatchConfig& config, double least);
 
 }  // namespace lifeline::matching

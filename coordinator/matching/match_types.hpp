@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,21 @@ enum class Method {
   spectra,   ///< the paper's section 3.3: Hough spectrum, x and y spectra, Eq. 12 and 13 alone
 };
 
+/// What the default path asks for beyond s_0 and the acceptance index; how the values were found is
+/// told in docs/decisions/0301 to 0303.
+struct AcceptanceLimits {
+  double min_agreeing_wall_m = 4.0;  ///< less could be chance
+  double max_conflict = 0.12;        ///< of the wall that speaks for or against, where much speaks
+  double min_conflict = 0.03;        ///< the same where next to nothing speaks; linear in between
+  double much_wall_m = 20.0;         ///< agreeing wall from which on max_conflict counts
+  double min_margin = 0.5;           ///< by which the best leads the second hypothesis
+  double min_control_ratio = 2.0;    ///< to the score that the mirror image of a map gets
+  double max_bend_rad_per_m =
+      0.04 * std::numbers::pi / 180.0;  ///< more than one rigid transform can do for
+  double min_bend_sds = 3.0;            ///< a smaller bend may be the walls' noise
+  double min_constraint_m = 0.8;        ///< else the maps could slide along each other
+};
+
 /// What the caller may choose. The defaults are those of the configuration schema.
 struct MatchConfig {
   Method method = Method::oriented;
@@ -25,6 +41,7 @@ struct MatchConfig {
   double min_s_overlapping = 0.01;       ///< s_0 of Eq. 12
   double min_acceptance_index = 0.85;    ///< of Eq. 13
   std::size_t rotation_candidates = 10;  ///< how many peaks of the spectra's correlation are tried
+  AcceptanceLimits limits = {};
 };
 
 /// One way to lay map b on map a, with the figures that speak for and against it.
@@ -42,6 +59,14 @@ struct MatchCandidate {
   double score = 0.0;         ///< agreeing less contradicting wall, in metres
 };
 
+/// How much the maps are bent against each other where they overlap: by heading drift the rotation
+/// that lays one on the other changes from place to place.
+struct Bend {
+  double rate_rad_per_m = 0.0;     ///< change of the rotation per metre
+  double rate_sd_rad_per_m = 1.0;  ///< standard deviation of the rate
+  double over_overlap_rad = 0.0;   ///< rate times the extent of the shared walls
+};
+
 enum class Verdict {
   accepted,  ///< the maps may be merged by T_a_b
   wait,      ///< not decided: the maps must grow first
@@ -50,6 +75,15 @@ enum class Verdict {
 
 [[nodiscard]] const char* to_string(Verdict verdict);
 [[nodiscard]] const char* to_string(Method method);
+
+/// Where the time of one match went; the default path alone fills it in. Milliseconds
+/// of CPU time.
+struct StepTimes {
+  double search = 0.0;   ///< spectra and correlation
+  double refine = 0.0;   ///< of all hypotheses
+  double figures = 0.0;  ///< of what is reported, and the bend
+  double control = 0.0;  ///< the mirror image
+};
 
 /// The evidence of one match. `candidates` is ordered from best to worst, each a distinct
 /// hypothesis; it is empty when there was nothing to compare.
@@ -62,9 +96,11 @@ struct MatchResult {
   /// Score of the best place of b's mirror image on a, where that was asked for: what walls of this
   /// style give by chance.
   std::optional<double> control_score;
+  std::optional<Bend> bend;  ///< of the best candidate; only Method::oriented measures it
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the best T_a_b: x_m, y_m, yaw_rad
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< middle of the agreeing wall, in b's frame
-  double match_ms = 0.0;                         ///< time of match_maps alone
+  double match_ms = 0.0;                         ///< CPU time of match_maps alone
+  StepTimes steps_ms;
 
   [[nodiscard]] bool accepted() const { return verdict == Verdict::accepted; }
 };

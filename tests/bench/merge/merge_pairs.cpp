@@ -1,13 +1,9 @@
 #include "tests/bench/merge/merge_pairs.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <map>
 #include <numbers>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,48 +11,13 @@
 #include "agents/sources/simulator/draw.hpp"
 #include "agents/sources/simulator/office.hpp"
 #include "common/files/occupancy_image.hpp"
+#include "tests/bench/merge/csv_rows.hpp"
 #include "tests/support/simulated_maps.hpp"
 
 namespace lifeline::bench {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-  return fields;
-}
-
-std::vector<Row> read_rows(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> names = split(line);
-  std::vector<Row> rows;
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> fields = split(line);
-    Row row;
-    for (std::size_t i = 0; i < names.size(); ++i)
-      row[names[i]] = i < fields.size() ? fields[i] : "";
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-/// Empty fields are 0.
-double number(const Row& row, const std::string& name) {
-  const auto field = row.find(name);
-  double value = 0.0;
-  if (field != row.end()) {
-    const std::string& text = field->second;
-    std::from_chars(text.data(), text.data() + text.size(), value);
-  }
-  return value;
-}
 
 Result<matching::MapFeatures> load_features(const std::filesystem::path& yaml) {
   auto grid = files::read_occupancy_image(yaml);
@@ -101,11 +62,12 @@ void measure_overlap(MergePair& pair, const Pose2& T_world_a, const Pose2& T_wor
 
 Result<std::vector<MergePair>> load_pairs(const std::filesystem::path& folder) {
   std::vector<MergePair> pairs;
-  for (const Row& row : read_rows(folder / "index.csv")) {
+  for (const CsvRow& row : read_csv(folder / "index.csv")) {
     MergePair pair;
     pair.name = row.at("pair");
     pair.kind = row.at("kind");
     pair.building_a = row.at("building_a");
+    pair.building_b = row.at("building_b");
     pair.overlap = number(row, "true_overlap");
     if (!row.at("T_a_b_x_m").empty()) {
       pair.T_a_b =
@@ -149,6 +111,7 @@ std::vector<MergePair> simulate_pairs(int buildings) {
       if (!features_a || !features_b) continue;
       MergePair pair{fmt::format("office{}_{:.0f}s", building, until_s),
                      "same",
+                     fmt::format("office{}", building),
                      fmt::format("office{}", building),
                      0.0,
                      a.T_world_map.inverse() * b.T_world_map,

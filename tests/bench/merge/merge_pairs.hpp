@@ -15,7 +15,7 @@ namespace lifeline::bench {
 struct MergePair {
   std::string name;
   std::string kind;  ///< same, drift10_, disjoint or different
-  std::string building_a;
+  std::string building_a, building_b;
   double overlap = 0.0;                  ///< share of the smaller map
   std::optional<Pose2> T_a_b;            ///< none for two buildings
   Eigen::Vector2d centre_b_m{0.0, 0.0};  ///< of the overlap: errors are taken there

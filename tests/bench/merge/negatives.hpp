@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,10 @@ struct NegativesOutcome {
 /// mirror image of a plan, parts of one plan far from each other, symmetric halls, repeated rooms.
 /// Maps of one floor count as wrong only where they are merged 0.5 m or 2 deg or more off the
 /// truth. Plans: generated offices, and those in the folder of HouseExpo `plans` where it exists.
-/// The same numbers give the same pairs.
-[[nodiscard]] NegativesOutcome run_negatives(std::size_t pairs, const std::filesystem::path& plans,
-                                             const matching::MatchConfig& config);
+/// The same numbers give the same pairs. `tell` hears after each floor how many pairs were matched
+/// and how many of them merged wrongly.
+[[nodiscard]] NegativesOutcome run_negatives(
+    std::size_t pairs, const std::filesystem::path& plans, const matching::MatchConfig& config,
+    const std::function<void(std::size_t, std::size_t)>& tell = {});
 
 }  // namespace lifeline::bench
