@@ -98,6 +98,13 @@ Judgement judge_oriented(const MatchResult& result, const MatchConfig& config) {
                                        "that agree: at most {:.1f} % may",
                                        100 * best.conflict, best.agreeing_wall_m, 100 * allowed)};
   }
+  if (best.longest_conflict_m > limits.max_conflict_piece_m) {
+    return {
+        Verdict::wait,
+        fmt::format("{:.1f} m of wall in one piece stand in space that the other map saw free, at "
+                    "most {:.1f} m may",
+                    best.longest_conflict_m, limits.max_conflict_piece_m)};
+  }
   if (result.margin < limits.min_margin) {
     return {
         Verdict::wait,

@@ -41,14 +41,14 @@ std::vector<AcceptanceLimits> grid() {
   for (const double margin : {0.7, 0.6, 0.5, 0.4, 0.3}) {
     for (const double control : {3.0, 2.5, 2.0, 1.5, 1.2}) {
       for (const double wall_m : {8.0, 6.0, 4.0, 3.0}) {
-        for (const double conflict : {0.06, 0.12, 0.18}) {
+        for (const double conflict : {0.05, 0.08, 0.12}) {
           for (const double bend_sds : {3.0, 4.0, 6.0}) {
             AcceptanceLimits limits;
             limits.min_margin = margin;
             limits.min_control_ratio = control;
             limits.min_agreeing_wall_m = wall_m;
             limits.max_conflict = conflict;
-            limits.min_conflict = 0.25 * conflict;
+            limits.min_conflict = 0.375 * conflict;
             limits.min_bend_sds = bend_sds;
             all.push_back(limits);
           }
@@ -62,7 +62,7 @@ std::vector<AcceptanceLimits> grid() {
 /// Steps of the grid that have to be gone down from the strictest limits.
 double looseness(const AcceptanceLimits& limits) {
   return (0.7 - limits.min_margin) / 0.1 + (3.0 - limits.min_control_ratio) / 0.5 +
-         (8.0 - limits.min_agreeing_wall_m) / 2.0 + (limits.max_conflict - 0.06) / 0.06 +
+         (8.0 - limits.min_agreeing_wall_m) / 2.0 + (limits.max_conflict - 0.05) / 0.03 +
          (limits.min_bend_sds - 3.0);
 }
 
@@ -89,6 +89,7 @@ AcceptanceLimits loose_limits() {
   AcceptanceLimits limits;
   limits.min_agreeing_wall_m = 2.0;
   limits.min_conflict = limits.max_conflict = 0.25;
+  limits.max_conflict_piece_m = 1e9;
   limits.min_margin = 0.2;
   limits.min_control_ratio = 0.0;
   limits.min_bend_sds = 1e9;

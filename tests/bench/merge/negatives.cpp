@@ -71,7 +71,8 @@ std::pair<FloorPlan, Kind> draw_plan(std::size_t number,
             symmetric};
   }
   if (number % 2 == 1 && !houses.empty()) {
-    auto house = sources::read_houseexpo(houses[(number / 4) % houses.size()]);
+    auto house =
+        sources::read_houseexpo(houses[(2 * (number / 8) + (number % 8) / 7) % houses.size()]);
     if (house) return {*std::move(house), apart};
   }
   return {office(100 + number, draw), apart};
@@ -119,11 +120,26 @@ class Tally {
       return;
     }
     ++counts.accepted_wrong;
-    outcome_.wrong.push_back({counts.name, fmt::format("{} / {}", floor_a.name, a),
-                              fmt::format("{} / {}", floor_b.name, b), result.reason});
+    outcome_.wrong.push_back({counts.name, fmt::format("{} / {}", short_name(floor_a), a),
+                              fmt::format("{} / {}", short_name(floor_b), b),
+                              result.reason + how_far_off(result, T_a_b)});
   }
 
  private:
+  static std::string short_name(const MappedFloor& floor) {
+    return std::filesystem::path(floor.name).filename().string();
+  }
+
+  static std::string how_far_off(const matching::MatchResult& result,
+                                 const std::optional<Pose2>& T_a_b) {
+    if (!T_a_b) return {};
+    const Pose2& found = result.candidates.front().T_a_b;
+    const Eigen::Vector2d& p_b = result.overlap_centre_b_m;
+    return fmt::format(
+        " ({:.2f} m, {:.1f} deg off)", (found * p_b - *T_a_b * p_b).norm(),
+        std::abs(normalise_angle(found.yaw_rad - T_a_b->yaw_rad)) * 180.0 / std::numbers::pi);
+  }
+
   static bool is_right(const matching::MatchResult& result, const Pose2& T_a_b) {
     const Pose2& found = result.candidates.front().T_a_b;
     const Eigen::Vector2d& p_b = result.overlap_centre_b_m;
