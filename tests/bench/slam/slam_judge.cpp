@@ -80,7 +80,9 @@ void add_cost(const LogCase& log, const std::string& name, bool has_bars, const 
 
 /// The stages that took any time.
 void add_stages(const std::string& name, const SlamOutcome& run, std::vector<ReportRow>& rows) {
-  for (const auto& [stage, ms] : run.stats.value("stages_ms", nlohmann::json::object()).items()) {
+  const auto stages = run.stats.find("stages_ms");
+  if (stages == run.stats.end()) return;
+  for (const auto& [stage, ms] : stages->items()) {
     const double p99 = ms.value("p99", kNothing);
     if (p99 <= 0.0) continue;
     rows.push_back(

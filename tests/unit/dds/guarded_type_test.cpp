@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <random>
 #include <vector>
 
@@ -32,7 +31,7 @@ class GuardedTypeOf : public ::testing::Test {
   /// As the middleware does it: the sample always arrives, decodable or not.
   SampleOf<Message> decode(const Octets& octets) {
     rtps::SerializedPayload_t payload(static_cast<std::uint32_t>(octets.size()) + 1);
-    std::memcpy(payload.data, octets.data(), octets.size());
+    std::copy(octets.begin(), octets.end(), payload.data);
     payload.length = static_cast<std::uint32_t>(octets.size());
     SampleOf<Message> sample;
     EXPECT_TRUE(type_.deserialize(&payload, &sample));

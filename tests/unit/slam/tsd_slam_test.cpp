@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -98,6 +99,46 @@ TEST_P(EachMatcher, GivesTheSameBitsForTheSameScans) {
   for (const TileIndex tile : once.slam.layer().tiles()) {
     EXPECT_EQ(*once.slam.layer().find(tile), *again.slam.layer().find(tile));
   }
+}
+
+TEST(TsdSlam, AScanThatFoundNoPlaceFindsItOnceTheMapHasGrown) {
+  // A room and a round tower at a corridor: from the one nothing of the other can be seen, and
+  // nothing in them is alike.
+  FlatWorld world;
+  world.add(0.0, 0.0, 4.0, 0.0).add(4.0, 0.0, 4.0, 3.0).add(0.0, 0.0, 0.0, 4.0);
+  world.add(0.0, 4.0, 10.0, 4.0).add(4.0, 3.0, 7.4, 3.0).add(8.6, 3.0, 10.0, 3.0);
+  world.add(10.0, 3.0, 10.0, 4.0).add(7.4, 1.9, 7.4, 3.0).add(8.6, 1.9, 8.6, 3.0);
+  const auto tower = [](int side) {
+    const double angle_rad = std::numbers::pi / 2 + (side + 0.5) * std::numbers::pi / 6;
+    return Eigen::Vector2d(8.0 + 2.5 * std::cos(angle_rad), -0.5 + 2.5 * std::sin(angle_rad));
+  };
+  for (int side = 0; side < 11; ++side) {  // the twelfth is its door
+    const Eigen::Vector2d from = tower(side), to = tower(side + 1);
+    world.add(from.x(), from.y(), to.x(), to.y());
+  }
+  const Pose2 first{1.0, 1.0, 0.0}, other_room{7.6, -1.2, 0.3}, error{0.3, 0.0, 0.0};
+  TsdSlam slam({}, kGeometry);
+  const auto step = [&](const Pose2& from, const Pose2& to, const Pose2& odometry_error) {
+    MotionPrior prior;
+    prior.elapsed = kTenthSecond;
+    prior.T_previous_now = from.inverse() * to * odometry_error;
+    return slam.step(scan_of(world, to), prior);
+  };
+  (void)slam.step(scan_of(world, first), {});
+  ASSERT_NE(step(first, other_room, error).verdict, Verdict::accepted);
+  (void)step(other_room, first, error.inverse());
+  Pose2 at = first;
+  for (const Pose2& next : {Pose2{2.2, 2.0, 0.2}, Pose2{3.4, 3.2, 0.4}, Pose2{4.4, 3.5, 0.1},
+                            Pose2{5.6, 3.5, 0.0}, Pose2{6.8, 3.4, -0.4}, Pose2{7.8, 2.8, -0.8},
+                            Pose2{8.0, 1.8, -1.2}, Pose2{7.9, 0.6, -1.2}, Pose2{7.8, -0.4, -1.2}}) {
+    ASSERT_NE(step(at, next, {}).verdict, Verdict::rejected) << next.x_m;
+    at = next;
+  }
+  slam.settle_all();
+  const Pose2 truth = first.inverse() * other_room;
+  ASSERT_GT(apart_m(slam.trajectory()[1].pose, truth), 0.2);
+  EXPECT_GE(slam.revisit(), 1);
+  EXPECT_LT(apart_m(slam.trajectory()[1].pose, truth), 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(Matchers, EachMatcher,
