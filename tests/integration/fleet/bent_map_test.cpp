@@ -15,6 +15,10 @@ struct Bend {
   double drift_rad_per_m;
 };
 
+void PrintTo(const Bend& bend, std::ostream* out) {
+  *out << "building " << bend.building << ", " << bend.drift_rad_per_m << " rad/m";
+}
+
 class BentMapTest : public testing::TestWithParam<Bend> {
  protected:
   BentMapTest() : drill_(GetParam().building, {"alpha", "bravo", "charlie", "delta"}) {
@@ -47,7 +51,10 @@ TEST_P(BentMapTest, StaysOutWithItsReasonAndJoinsOnceCorrected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Offices, BentMapTest,
-                         testing::Values(Bend{1, 0.008}, Bend{2, 0.006}, Bend{3, -0.008}));
+                         testing::Values(Bend{1, 0.008}, Bend{2, 0.006}, Bend{3, -0.008}),
+                         [](const auto& bend) {
+                           return "InBuilding" + std::to_string(bend.param.building);
+                         });
 
 }  // namespace
 }  // namespace lifeline::test

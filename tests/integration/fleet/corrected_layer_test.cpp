@@ -38,7 +38,12 @@ TsdGrid slipped(const TsdGrid& layer, double share_that_stays, int by_cells) {
 struct Slip {
   int cells;             ///< of 5 cm
   Duration followed_in;  ///< of the fleet's clock, after the last corrected tile
+  double share_that_stays;
 };
+
+void PrintTo(const Slip& slip, std::ostream* out) {
+  *out << 5 * slip.cells << " cm";
+}
 
 class CorrectedLayerTest : public testing::TestWithParam<Slip> {
  protected:
@@ -47,7 +52,8 @@ class CorrectedLayerTest : public testing::TestWithParam<Slip> {
     for (const double until_s : {30, 34, 38}) {
       drill_.view("alpha").until_s = drill_.view("bravo").until_s = until_s;
       fleet().helmet("alpha").show(drill_.layer("alpha"));
-      fleet().helmet("bravo").show(slipped(drill_.layer("bravo"), 0.1, GetParam().cells));
+      fleet().helmet("bravo").show(
+          slipped(drill_.layer("bravo"), GetParam().share_that_stays, GetParam().cells));
       fleet().run(std::chrono::seconds(5));
     }
   }
@@ -77,15 +83,16 @@ TEST_P(CorrectedLayerTest, IsMatchedNoMoreThanOnceASecondHoweverManyTilesCome) {
   const std::size_t before = fleet().evidence().size();
   for (int i = 0; i < 20; ++i) {
     fleet().helmet("bravo").show(
-        i % 2 == 0 ? drill_.layer("bravo") : slipped(drill_.layer("bravo"), 0.1, GetParam().cells));
+        i % 2 == 0 ? drill_.layer("bravo")
+                   : slipped(drill_.layer("bravo"), GetParam().share_that_stays, GetParam().cells));
     fleet().run(std::chrono::milliseconds(500));
   }
   EXPECT_LE(fleet().evidence().size() - before, 11U) << "in ten seconds";
 }
 
 INSTANTIATE_TEST_SUITE_P(Slips, CorrectedLayerTest,
-                         testing::Values(Slip{4, std::chrono::seconds(2)},
-                                         Slip{12, std::chrono::seconds(7)}),
+                         testing::Values(Slip{4, std::chrono::seconds(2), 0.1},
+                                         Slip{12, std::chrono::seconds(7), 0.05}),
                          [](const auto& slip) {
                            return "of" + std::to_string(5 * slip.param.cells) + "cm";
                          });
