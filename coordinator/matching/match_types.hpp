@@ -25,7 +25,7 @@ struct AcceptanceLimits {
   double max_conflict = 0.08;         ///< of the wall that speaks for or against, where much speaks
   double min_conflict = 0.03;         ///< the same where next to nothing speaks; linear in between
   double much_wall_m = 14.0;          ///< agreeing wall from which on max_conflict counts
-  double max_conflict_piece_m = 3.0;  ///< in one piece: a wall, no person and no door
+  double max_conflict_piece_m = 6.0;  ///< in one piece: a wall, no person and no door
   double min_margin = 0.5;            ///< by which the best leads the second hypothesis
   double min_control_ratio = 2.0;     ///< to the score that the mirror image of a map gets
   double max_bend_rad_per_m =
