@@ -57,8 +57,8 @@ EdgeDecision EdgeSupport::doubt(const LayerPair& pair, bool final, const std::st
 
 bool EdgeSupport::confirm(const LayerPair& pair, const PairMatch& match) {
   const auto& best = match.result.candidates.front();
-  return confirmation_.confirm(
-      pair, {best.T_a_b, match.result.overlap_centre_b_m, best.agreeing_wall_m, match.last_chance});
+  return confirmation_.confirm(pair, {best.T_a_b, match.result.overlap_centre_b_m,
+                                      best.agreeing_wall_m, match.last_chance, best.conflict});
 }
 
 std::string EdgeSupport::lost_support(const LayerPair& pair, const PlaceCheck& check) const {
