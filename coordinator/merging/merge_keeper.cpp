@@ -105,11 +105,11 @@ void MergeKeeper::note_check(const LayerPair& pair, const PlaceCheck& check) {
 
 void MergeKeeper::plan_anew(std::vector<PairNews>& news) {
   const MergePlan before = std::exchange(plan_, graph_.plan(leads_of(plan_)));
-  PairNews& own = news.front();
+  const LayerPair own = news.front().pair;
   for (const Contradiction& now : plan_.contradictions) {
-    if (now.pair == own.pair) {
-      own.verdict = matching::Verdict::wait;
-      own.reason = "not followed: " + describe(now);
+    if (now.pair == own) {
+      news.front().verdict = matching::Verdict::wait;
+      news.front().reason = "not followed: " + describe(now);
       continue;
     }
     const Contradiction* known = before.find(now.pair);
@@ -117,7 +117,7 @@ void MergeKeeper::plan_anew(std::vector<PairNews>& news) {
       news.push_back({now.pair, matching::Verdict::wait, "not followed: " + describe(now)});
   }
   for (const Contradiction& old : before.contradictions) {
-    if (old.pair != own.pair && follows(old.pair)) {
+    if (old.pair != own && follows(old.pair)) {
       news.push_back({old.pair, matching::Verdict::accepted,
                       "followed again: nothing contradicts it any more"});
     }
