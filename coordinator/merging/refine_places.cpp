@@ -1,15 +1,12 @@
 #include "coordinator/merging/refine_places.hpp"
 
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <ceres/ceres.h>
 
 #include "common/base/check.hpp"
+#include "common/grid/relative_pose_error.hpp"
 
 namespace lifeline::merging {
 namespace {
@@ -19,40 +16,12 @@ constexpr int kMaxIterations = 20;
 
 using Parameters = std::array<double, 3>;  // x, y, yaw
 
-template <typename T>
-T wrapped(const T& angle_rad) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  return angle_rad - kTurn * ceres::floor((angle_rad + std::numbers::pi) / kTurn);
-}
-
-/// How far b, seen from a, is from where the edge says, in standard deviations.
-struct PlaceError {
-  Pose2 T_a_b;
-  Eigen::Matrix3d whiten;
-
-  template <typename T>
-  bool operator()(const T* a, const T* b, T* residual) const {
-    const T c = ceres::cos(a[2]), s = ceres::sin(a[2]);
-    const T dx = b[0] - a[0], dy = b[1] - a[1];
-    const Eigen::Matrix<T, 3, 1> error(c * dx + s * dy - T_a_b.x_m, c * dy - s * dx - T_a_b.y_m,
-                                       wrapped(T(b[2] - a[2] - T_a_b.yaw_rad)));
-    Eigen::Map<Eigen::Matrix<T, 3, 1>>(residual).noalias() = whiten.cast<T>() * error;
-    return true;
-  }
-};
-
-Eigen::Matrix3d whitening(const Eigen::Matrix3d& covariance) {
-  const Eigen::LLT<Eigen::Matrix3d> root(covariance.inverse());
-  LIFELINE_CHECK(root.info() == Eigen::Success);
-  return root.matrixU();
-}
-
 void add_edges(std::span<const PlaceEdge> edges, std::vector<Parameters>& x,
                ceres::Problem& problem) {
   for (const PlaceEdge& edge : edges) {
     LIFELINE_CHECK(edge.a < x.size() && edge.b < x.size() && edge.a != edge.b);
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PlaceError, 3, 3, 3>(
-                                 new PlaceError{edge.T_a_b, whitening(edge.covariance)}),
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<RelativePoseError, 3, 3, 3>(
+                                 new RelativePoseError(edge.T_a_b, edge.covariance)),
                              new ceres::HuberLoss(kLossScale), x[edge.a].data(), x[edge.b].data());
   }
   problem.SetParameterBlockConstant(x.front().data());
