@@ -2,37 +2,9 @@
 
 #include "agents/sources/open_source.hpp"
 #include "common/base/check.hpp"
+#include "tests/support/fleet_channels.hpp"
 
 namespace lifeline::test {
-namespace {
-
-constexpr const char* kMission = "drill";
-constexpr Duration kTick = std::chrono::milliseconds(100);
-
-sharing::Speaker speaker(const std::string& id) {
-  return {AgentId::parse(id).value(), kMission, Incarnation{std::hash<std::string>{}(id) | 1U}};
-}
-
-sharing::HelmetSharingConfig sharing_config(const std::string& id) {
-  return {speaker(id), {AgentId::parse(id).value(), MapId{1}, Floor{0}}, GridGeometry{}, {}};
-}
-
-sharing::HelmetChannels helmet_channels(wire::LoopbackBus& bus) {
-  return {bus.writer<wire::HelmetPose>(),  bus.writer<wire::HelmetScan>(),
-          bus.writer<wire::TsdTile>(),     bus.writer<wire::AgentStatus>(),
-          bus.reader<wire::TsdTile>(),     bus.reader<wire::MergeDirective>(),
-          bus.reader<wire::AgentStatus>(), [] { return std::uint64_t{0}; }};
-}
-
-CoordinatorChannels coordinator_channels(wire::LoopbackBus& bus) {
-  return {bus.reader<wire::TsdTile>(),       bus.reader<wire::HelmetPose>(),
-          bus.reader<wire::AgentStatus>(),   bus.writer<wire::MergeDirective>(),
-          bus.writer<wire::MergeEvidence>(), bus.writer<wire::AgentStatus>(),
-          [] { return std::uint64_t{0}; }};
-}
-
-}  // namespace
-
 Helmet::Helmet(const std::string& id, std::unique_ptr<sensing::ScanSource> source,
                wire::LoopbackBus& bus, const Clock& clock)
     : source_(std::move(source)),

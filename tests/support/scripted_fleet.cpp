@@ -5,30 +5,10 @@
 #include "common/base/check.hpp"
 #include "common/base/sha256.hpp"
 #include "common/sharing/fixed_transform.hpp"
+#include "tests/support/fleet_channels.hpp"
 
 namespace lifeline::test {
 namespace {
-
-constexpr const char* kMission = "drill";
-constexpr Duration kTick = std::chrono::milliseconds(100);
-
-sharing::Speaker speaker(const std::string& id) {
-  return {AgentId::parse(id).value(), kMission, Incarnation{std::hash<std::string>{}(id) | 1U}};
-}
-
-sharing::HelmetChannels helmet_channels(wire::LoopbackBus& bus) {
-  return {bus.writer<wire::HelmetPose>(),  bus.writer<wire::HelmetScan>(),
-          bus.writer<wire::TsdTile>(),     bus.writer<wire::AgentStatus>(),
-          bus.reader<wire::TsdTile>(),     bus.reader<wire::MergeDirective>(),
-          bus.reader<wire::AgentStatus>(), [] { return std::uint64_t{0}; }};
-}
-
-CoordinatorChannels coordinator_channels(wire::LoopbackBus& bus) {
-  return {bus.reader<wire::TsdTile>(),       bus.reader<wire::HelmetPose>(),
-          bus.reader<wire::AgentStatus>(),   bus.writer<wire::MergeDirective>(),
-          bus.writer<wire::MergeEvidence>(), bus.writer<wire::AgentStatus>(),
-          [] { return std::uint64_t{0}; }};
-}
 
 const wire::DirectiveMember& member(const wire::MergeDirective& directive, const std::string& id) {
   const auto found =
@@ -41,8 +21,7 @@ const wire::DirectiveMember& member(const wire::MergeDirective& directive, const
 }  // namespace
 
 ScriptedHelmet::ScriptedHelmet(const std::string& id, wire::LoopbackBus& bus, const Clock& clock)
-    : sharing_({speaker(id), {AgentId::parse(id).value(), MapId{1}, Floor{0}}, GridGeometry{}, {}},
-               helmet_channels(bus), clock) {}
+    : sharing_(sharing_config(id), helmet_channels(bus), clock) {}
 
 void ScriptedHelmet::show(const TsdGrid& layer) {
   sharing::MapTiles changed;
