@@ -3,6 +3,14 @@
 #include "idl/config.pb.h"
 
 namespace lifeline {
+namespace {
+
+// Growing maps are bent more than finished ones: here two matches must agree before such a pair is
+// merged, and a merge that loses its support is taken back (docs/decisions/0006, 0007).
+constexpr double kMaxConflict = 0.12;
+constexpr double kMaxConflictPiece_m = 8.0;
+
+}  // namespace
 
 CoordinatorSettings to_settings(const proto::CoordinatorConfig& config, sharing::Speaker speaker) {
   const auto& merging = config.merging();
@@ -12,15 +20,6 @@ CoordinatorSettings to_settings(const proto::CoordinatorConfig& config, sharing:
            merging.rematch_growth_percent()},
           {.own_weight = merging.own_weight()}};
 }
-
-namespace {
-
-// Growing maps are bent more than finished ones: here two matches must agree before such a pair is
-// merged, and a merge that loses its support is taken back (docs/decisions/0006, 0007).
-constexpr double kMaxConflict = 0.12;
-constexpr double kMaxConflictPiece_m = 8.0;
-
-}  // namespace
 
 matching::MatchConfig to_match_config(const proto::CoordinatorConfig& config) {
   const auto& merging = config.merging();

@@ -18,4 +18,9 @@ namespace lifeline::slam {
   return Eigen::Vector3d(xy_m * xy_m, xy_m * xy_m, yaw_rad * yaw_rad).asDiagonal();
 }
 
+/// Whether what has this covariance of (x, y, yaw) may be further off than one of the two.
+[[nodiscard]] inline bool exceeds(const Eigen::Matrix3d& covariance, double xy_m, double yaw_rad) {
+  return covariance(0, 0) + covariance(1, 1) > xy_m * xy_m || covariance(2, 2) > yaw_rad * yaw_rad;
+}
+
 }  // namespace lifeline::slam

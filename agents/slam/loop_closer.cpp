@@ -87,10 +87,7 @@ void LoopCloser::append(const Keyframe& keyframe) {
   drawn_poses_.push_back(drawn_poses_.back() * keyframe.T_previous_this);
   edges_.push_back(edge);
   const Eigen::Matrix3d& step = keyframe.step_covariance;
-  if (step(0, 0) + step(1, 1) > config_.lost_xy_m * config_.lost_xy_m ||
-      step(2, 2) > config_.lost_yaw_rad * config_.lost_yaw_rad) {
-    lost_ += step;
-  }
+  if (exceeds(step, config_.lost_xy_m, config_.lost_yaw_rad)) lost_ += step;
 }
 
 std::optional<std::size_t> LoopCloser::old_place(std::size_t now) const {
@@ -262,7 +259,7 @@ int LoopCloser::reconsider() {
     const Eigen::Matrix3d& step = keyframes_[i].step_covariance;
     const Prediction here{poses_[i],
                           std::max(config_.doubtful_sigma_xy_m, std::sqrt(step(0, 0) + step(1, 1))),
-                          std::max(config_.doubtful_yaw_rad, std::sqrt(step(2, 2)))};
+                          std::max(config_.submaps.doubtful_yaw_rad, std::sqrt(step(2, 2)))};
     const std::vector<SurfacePiece>& pieces = unpacked(i);
     TsdView view;
     view.assign(place_, poses_[i].translation(), reach_of(pieces) + 4.0);
@@ -278,9 +275,8 @@ int LoopCloser::reconsider() {
 }
 
 bool LoopCloser::is_doubtful(std::size_t index) {
-  const Eigen::Matrix3d& step = keyframes_[index].step_covariance;
-  if (step(0, 0) + step(1, 1) > config_.doubtful_xy_m * config_.doubtful_xy_m ||
-      step(2, 2) > config_.doubtful_yaw_rad * config_.doubtful_yaw_rad) {
+  if (exceeds(keyframes_[index].step_covariance, config_.submaps.doubtful_xy_m,
+              config_.submaps.doubtful_yaw_rad)) {
     return true;
   }
   const std::vector<SurfacePiece>& pieces = unpacked(index);

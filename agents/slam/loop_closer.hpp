@@ -49,10 +49,8 @@ struct LoopConfig {
   double tie_path_m = 1.0;  ///< of path from one to the next
   double tie_sigma_xy_m = 0.1;
   double tie_sigma_yaw_rad = 0.02;
-  double doubtful_xy_m = 0.12;  ///< a keyframe whose step may be this far off ...
-  double doubtful_yaw_rad = 0.03;
+  double doubtful_share = 0.85;  ///< fewer inliers than this, or a doubtful step: looked at again
   double doubtful_sigma_xy_m = 0.3;  ///< (of the search for a better place, at least)
-  double doubtful_share = 0.85;      ///< ... or fewer inliers than this is looked at once more
   double doubtful_reach_m = 8.0;     ///< on a map of the others within this distance
   double doubtful_margin = 3.0;      ///< and moves to a place this much likelier
   double polish_sigma_xy_m = 0.03;   ///< of a keyframe against the layer drawn anew

@@ -27,7 +27,8 @@ void SubmapChain::start(std::span<const SurfacePiece> pieces) {
 GraphEdge SubmapChain::add(std::size_t index, const Keyframe& keyframe,
                            std::span<const SurfacePiece> pieces) {
   const Pose2& step = keyframe.T_previous_this;
-  const bool doubtful = is_doubtful(keyframe.step_covariance);
+  const bool doubtful =
+      exceeds(keyframe.step_covariance, config_.doubtful_xy_m, config_.doubtful_yaw_rad);
   const GraphEdge edge = doubtful
                              ? GraphEdge{index - 1, index, step, keyframe.step_covariance, false}
                              : measure(index, keyframe, pieces);
@@ -42,12 +43,6 @@ GraphEdge SubmapChain::add(std::size_t index, const Keyframe& keyframe,
   if (doubtful || newer_.path_m >= config_.path_m) begin_submap(index);
   draw(pieces);
   return edge;
-}
-
-bool SubmapChain::is_doubtful(const Eigen::Matrix3d& step_covariance) const {
-  return step_covariance(0, 0) + step_covariance(1, 1) >
-             config_.doubtful_xy_m * config_.doubtful_xy_m ||
-         step_covariance(2, 2) > config_.doubtful_yaw_rad * config_.doubtful_yaw_rad;
 }
 
 GraphEdge SubmapChain::measure(std::size_t index, const Keyframe& keyframe,

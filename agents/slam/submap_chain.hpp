@@ -53,7 +53,6 @@ class SubmapChain {
     std::unique_ptr<WorkingMap> map;
   };
 
-  [[nodiscard]] bool is_doubtful(const Eigen::Matrix3d& step_covariance) const;
   [[nodiscard]] GraphEdge measure(std::size_t index, const Keyframe& keyframe,
                                   std::span<const SurfacePiece> pieces);
   void begin_submap(std::size_t first);
