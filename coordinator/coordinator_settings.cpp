@@ -3,14 +3,6 @@
 #include "idl/config.pb.h"
 
 namespace lifeline {
-namespace {
-
-// Growing maps are bent more than finished ones: here two matches must agree before such a pair is
-// merged, and a merge that loses its support is taken back (docs/decisions/0006, 0007).
-constexpr double kMaxConflict = 0.12;
-constexpr double kMaxConflictPiece_m = 8.0;
-
-}  // namespace
 
 CoordinatorSettings to_settings(const proto::CoordinatorConfig& config, sharing::Speaker speaker) {
   const auto& merging = config.merging();
@@ -30,8 +22,6 @@ matching::MatchConfig to_match_config(const proto::CoordinatorConfig& config) {
   match.area_y_m = merging.area_y_m();
   match.min_s_overlapping = merging.min_s_overlapping();
   match.min_acceptance_index = merging.min_acceptance_index();
-  match.limits.max_conflict = kMaxConflict;
-  match.limits.max_conflict_piece_m = kMaxConflictPiece_m;
   return match;
 }
 

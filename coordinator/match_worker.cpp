@@ -5,6 +5,7 @@
 
 #include "common/base/check.hpp"
 #include "coordinator/matching/candidate.hpp"
+#include "coordinator/matching/compare_walls.hpp"
 
 namespace lifeline {
 namespace {
@@ -13,11 +14,14 @@ merging::PlaceCheck check_place(const matching::MapFeatures& a, const matching::
                                 const Pose2& T_a_b, const matching::MatchConfig& config) {
   const Pose2 T_a_a_local{a.origin_map_m.x(), a.origin_map_m.y(), 0.0};
   const Pose2 T_b_b_local{b.origin_map_m.x(), b.origin_map_m.y(), 0.0};
-  const auto measured =
-      matching::measure_candidate(a, b, T_a_a_local.inverse() * T_a_b * T_b_b_local, config);
+  const Pose2 T_a_b_local = T_a_a_local.inverse() * T_a_b * T_b_b_local;
+  const auto measured = matching::measure_candidate(a, b, T_a_b_local, config);
   const auto& figures = measured.candidate;
-  merging::PlaceCheck check{figures, measured.overlap_centre_b_m,
-                            (figures.agreeing_wall_m - figures.score) / matching::kConflictWeight};
+  merging::PlaceCheck check{
+      figures, measured.overlap_centre_b_m,
+      (figures.agreeing_wall_m - figures.score) / matching::kConflictWeight,
+      0.5 * (matching::displaced_conflict_m(b.walls, T_a_b_local, a) +
+             matching::displaced_conflict_m(a.walls, T_a_b_local.inverse(), b))};
   check.figures.T_a_b = T_a_b;
   return check;
 }

@@ -55,7 +55,63 @@ float take_piece(std::map<std::pair<int, int>, float>& squares, std::pair<int, i
   return length_m;
 }
 
+/// The wall of a map by squares as wide as the reach, so that few are looked at.
+class DisplacedWallFinder {
+ public:
+  explicit DisplacedWallFinder(const std::vector<WallPoint>& walls) {
+    for (const WallPoint& wall : walls) squares_[square_of(wall.p)].push_back(&wall);
+  }
+
+  /// Whether there is wall beside `p` that faces like `normal`.
+  [[nodiscard]] bool finds(const Eigen::Vector2f& p, const Eigen::Vector2f& normal) const {
+    const auto [x, y] = square_of(p);
+    for (const int dy : {-1, 0, 1}) {
+      for (const int dx : {-1, 0, 1}) {
+        const auto square = squares_.find({x + dx, y + dy});
+        if (square == squares_.end()) continue;
+        for (const WallPoint* const wall : square->second) {
+          if (is_beside(*wall, p, normal)) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr float kReach_m = 1.0F;
+
+  static std::pair<int, int> square_of(const Eigen::Vector2f& p) {
+    return {static_cast<int>(std::floor(p.x() / kReach_m)),
+            static_cast<int>(std::floor(p.y() / kReach_m))};
+  }
+
+  static bool is_beside(const WallPoint& wall, const Eigen::Vector2f& p,
+                        const Eigen::Vector2f& normal) {
+    constexpr float kMaxAlong_m = 0.5F, kMinCosine = 0.8F;
+    const Eigen::Vector2f off = p - wall.p;
+    const float along = off.x() * wall.normal.y() - off.y() * wall.normal.x();
+    return wall.normal.dot(normal) >= kMinCosine && std::abs(along) <= kMaxAlong_m &&
+           std::abs(wall.normal.dot(off)) <= kReach_m;
+  }
+
+  std::map<std::pair<int, int>, std::vector<const WallPoint*>> squares_;
+};
+
 }  // namespace
+
+double displaced_conflict_m(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
+                            const MapFeatures& a) {
+  const Rigid2f transform(T_a_b);
+  const DisplacedWallFinder finder(a.skeleton);
+  double displaced_m = 0.0;
+  for (const WallPoint& wall : walls) {
+    const Eigen::Vector2f p = transform * wall.p, normal = transform.turn(wall.normal);
+    if (a.field.place(p) != WallField::Place::clear) continue;
+    if (agreeing_wall(a, p, normal, kFineGate) != nullptr) continue;
+    if (finder.finds(p, normal)) displaced_m += static_cast<double>(wall.length_m);
+  }
+  return displaced_m;
+}
 
 double longest_conflict_m(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
                           const MapFeatures& a) {

@@ -40,4 +40,10 @@ inline constexpr WallGate kFineGate{0.10F, 0.88F};
 [[nodiscard]] double longest_conflict_m(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
                                         const MapFeatures& a);
 
+/// How much of the wall of b that lies in a's clear space, in metres, is only displaced: a has wall
+/// that faces the same way within 1 m across itself. A bent map moves its walls a little; where the
+/// place is wrong, a has no such wall for most of them.
+[[nodiscard]] double displaced_conflict_m(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
+                                          const MapFeatures& a);
+
 }  // namespace lifeline::matching

@@ -29,8 +29,29 @@ Result<void> check_size(const OccupancyGrid& grid) {
   return {};
 }
 
-/// Completes the features from the raw `cropped` grid and its dense wall points.
-Result<MapFeatures> complete(const OccupancyGrid& cropped, const std::vector<WallPoint>& dense) {
+/// `grid` less the free cells that few beams crossed. By a small error of the heading a beam that
+/// came far along a corridor has crossed a wall: what it saw free contradicts no other map.
+OccupancyGrid well_seen(const OccupancyGrid& grid, const TsdGrid& tsd) {
+  constexpr float kMinWeight = 3.0F;
+  OccupancyGrid seen = grid;
+  const CellIndex corner =
+      tsd.cell_at(grid.origin_m + Eigen::Vector2d::Constant(0.5 * grid.cell_size_m));
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      Occupancy& cell = seen.cells[grid.index(column, row)];
+      if (cell == Occupancy::free &&
+          tsd.cell({corner.x + column, corner.y + row}).weight_value() < kMinWeight) {
+        cell = Occupancy::unknown;
+      }
+    }
+  }
+  return seen;
+}
+
+/// Completes the features from the raw `cropped` grid, its dense wall points, and what of it may
+/// contradict another map.
+Result<MapFeatures> complete(const OccupancyGrid& cropped, const std::vector<WallPoint>& dense,
+                             const OccupancyGrid& well_seen) {
   MapFeatures features;
   features.cell_size_m = cropped.cell_size_m;
   features.origin_map_m = cropped.origin_m;
@@ -41,7 +62,7 @@ Result<MapFeatures> complete(const OccupancyGrid& cropped, const std::vector<Wal
                 features.walls.size(), kMaxWallPoints);
   }
   features.skeleton = thin_out(features.walls, kSkeletonSpacing_m);
-  features.field = WallField(cropped, features.walls);
+  features.field = WallField(well_seen, features.walls);
   features.oriented = oriented_spectrum(features.walls);
   features.filtered = filter_noise(cropped);
   for (const WallPoint& wall : features.walls) features.wall_m += wall.length_m;
@@ -69,10 +90,11 @@ std::vector<WallPoint> mirrored(std::vector<WallPoint> walls, const OccupancyGri
 }
 
 Result<MapFeatures> complete_with_mirror(const OccupancyGrid& cropped,
-                                         const std::vector<WallPoint>& dense) {
-  auto features = complete(cropped, dense);
+                                         const std::vector<WallPoint>& dense,
+                                         const OccupancyGrid& well_seen) {
+  auto features = complete(cropped, dense, well_seen);
   if (!features) return features;
-  auto mirror = complete(mirrored(cropped), mirrored(dense, cropped));
+  auto mirror = complete(mirrored(cropped), mirrored(dense, cropped), mirrored(well_seen));
   if (!mirror) return mirror;
   features->mirror = std::make_shared<const MapFeatures>(*std::move(mirror));
   return features;
@@ -83,7 +105,7 @@ Result<MapFeatures> complete_with_mirror(const OccupancyGrid& cropped,
 Result<MapFeatures> build_features(const OccupancyGrid& grid) {
   if (const auto checked = check_size(grid); !checked) return forward_error(checked);
   const OccupancyGrid cropped = crop_to_known(grid, kWallMargin);
-  return complete_with_mirror(cropped, wall_points(cropped));
+  return complete_with_mirror(cropped, wall_points(cropped), cropped);
 }
 
 Result<MapFeatures> build_features(const TsdGrid& tsd) {
@@ -91,7 +113,7 @@ Result<MapFeatures> build_features(const TsdGrid& tsd) {
   if (!grid) return forward_error(grid);
   if (const auto checked = check_size(*grid); !checked) return forward_error(checked);
   const OccupancyGrid cropped = crop_to_known(*grid, kWallMargin);
-  return complete_with_mirror(cropped, wall_points(tsd, cropped.origin_m));
+  return complete_with_mirror(cropped, wall_points(tsd, cropped.origin_m), well_seen(cropped, tsd));
 }
 
 }  // namespace lifeline::matching

@@ -6,10 +6,7 @@ bool Confirmation::confirm(const LayerPair& pair, const Proposal& proposal) {
   const auto before = proposed_.find(pair);
   const bool seconded = before != proposed_.end() && agree(before->second, proposal);
   proposed_.insert_or_assign(pair, proposal);
-  const bool speaks_for_itself =
-      proposal.conflict <= config_.max_conflict &&
-      (proposal.last_chance || proposal.agreeing_wall_m >= config_.enough_wall_m);
-  return seconded || speaks_for_itself;
+  return seconded || proposal.last_chance || proposal.agreeing_wall_m >= config_.enough_wall_m;
 }
 
 void Confirmation::refuse(const LayerPair& pair) {

@@ -13,8 +13,7 @@ struct ConfirmationConfig {
   /// Two matches agree when they put the overlap's centre this close together ...
   double same_place_m = kSamePlaceM;
   double same_turn_rad = kSameTurnRad;  ///< ... turned by no more than this
-  double enough_wall_m = 60.0;          ///< so much agreeing wall needs no second match ...
-  double max_conflict = 0.08;           ///< ... unless more than this share of it contradicts
+  double enough_wall_m = 60.0;          ///< so much agreeing wall needs no second match
 };
 
 /// A match that was accepted on its own figures.
@@ -23,7 +22,6 @@ struct Proposal {
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< in b's map frame
   double agreeing_wall_m = 0.0;
   bool last_chance = false;  ///< neither map will change: there will be no second match
-  double conflict = 0.0;     ///< share of contradicting wall
 };
 
 /// Young maps look alike in many places, and differently wrong ones a few metres later. So a pair

@@ -46,8 +46,13 @@ EdgeDecision EdgeSupport::judge_elsewhere(const LayerPair& pair, const PairMatch
 EdgeDecision EdgeSupport::judge_undecided(const LayerPair& pair, const PairMatch& match) {
   if (!match.check) return {EdgeStep::kept, {}};
   const std::string lost = lost_support(pair, *match.check);
-  if (lost.empty()) return {EdgeStep::kept, {}};
-  return doubt(pair, match.last_chance, lost);
+  if (!lost.empty()) return doubt(pair, match.last_chance, lost);
+  if (!contradicts(*match.check)) return {EdgeStep::kept, {}};
+  return {EdgeStep::kept,
+          fmt::format("a map is bent: of {:.0f} % of the wall that contradict, {:.0f} % are only "
+                      "displaced by less than 1 m",
+                      100 * match.check->figures.conflict,
+                      100 * match.check->displaced_m / match.check->conflict_m)};
 }
 
 EdgeDecision EdgeSupport::doubt(const LayerPair& pair, bool final, const std::string& why) {
@@ -57,13 +62,17 @@ EdgeDecision EdgeSupport::doubt(const LayerPair& pair, bool final, const std::st
 
 bool EdgeSupport::confirm(const LayerPair& pair, const PairMatch& match) {
   const auto& best = match.result.candidates.front();
-  return confirmation_.confirm(pair, {best.T_a_b, match.result.overlap_centre_b_m,
-                                      best.agreeing_wall_m, match.last_chance, best.conflict});
+  return confirmation_.confirm(
+      pair, {best.T_a_b, match.result.overlap_centre_b_m, best.agreeing_wall_m, match.last_chance});
+}
+
+bool EdgeSupport::contradicts(const PlaceCheck& check) const {
+  return check.figures.conflict > config_.max_conflict && check.conflict_m > config_.min_conflict_m;
 }
 
 std::string EdgeSupport::lost_support(const LayerPair& pair, const PlaceCheck& check) const {
   const auto& figures = check.figures;
-  if (figures.conflict > config_.max_conflict && check.conflict_m > config_.min_conflict_m) {
+  if (contradicts(check) && check.foreign_conflict() > config_.max_foreign_conflict) {
     return fmt::format("where the maps were merged {:.0f} % of the wall contradict now",
                        100 * figures.conflict);
   }

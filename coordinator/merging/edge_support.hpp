@@ -13,7 +13,13 @@ namespace lifeline::merging {
 struct PlaceCheck {
   matching::MatchCandidate figures;  ///< its T_a_b is the place that was looked at
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};
-  double conflict_m = 0.0;  ///< length of the contradicting wall
+  double conflict_m = 0.0;   ///< length of the contradicting wall
+  double displaced_m = 0.0;  ///< of that, what displaced_conflict_m() explains: the maps are bent
+
+  /// Share of contradicting wall that no bend explains.
+  [[nodiscard]] double foreign_conflict() const {
+    return conflict_m > 0.0 ? figures.conflict * (1.0 - displaced_m / conflict_m) : 0.0;
+  }
 };
 
 /// Everything that a match of two layers said.
@@ -35,13 +41,17 @@ enum class EdgeStep {
 
 struct EdgeDecision {
   EdgeStep step = EdgeStep::none;
-  std::string reason;  ///< for `proposed`, `doubted`, `withdrawn` and moves; one sentence
+  std::string
+      reason;  ///< for `proposed`, `doubted`, `withdrawn`, moves, and `kept` in spite of conflict
 };
 
 /// When an edge loses its support.
 struct SupportConfig {
   double max_conflict =
-      0.18;  ///< share of contradicting wall at the held place; matches accept 0.12
+      0.18;  ///< share of contradicting wall at the held place; matches accept 0.08
+  /// The same without displaced wall. Wrong places that agree over more than 15 m while more than
+  /// max_conflict contradicts have 0.09 and more of it, bent maps at their right place 0.07.
+  double max_foreign_conflict = 0.08;
   double min_conflict_m = 2.0;      ///< less contradicting wall than this may be a door or a person
   double min_agreeing_share = 0.5;  ///< of the wall that agreed when the edge was measured
   int doubts = 2;                   ///< so many matches in a row without support end an edge
@@ -68,6 +78,7 @@ class EdgeSupport {
   [[nodiscard]] EdgeDecision judge_undecided(const LayerPair& pair, const PairMatch& match);
   [[nodiscard]] EdgeDecision doubt(const LayerPair& pair, bool final, const std::string& why);
   [[nodiscard]] bool confirm(const LayerPair& pair, const PairMatch& match);
+  [[nodiscard]] bool contradicts(const PlaceCheck& check) const;
   [[nodiscard]] std::string lost_support(const LayerPair& pair, const PlaceCheck& check) const;
 
   SupportConfig config_;

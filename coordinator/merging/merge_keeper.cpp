@@ -67,7 +67,8 @@ PairNews MergeKeeper::apply(const LayerPair& pair, const PairMatch& match) {
       break;
     case EdgeStep::kept:
       news.verdict = matching::Verdict::wait;
-      news.reason = "stays merged; this match: " + match.result.reason;
+      news.reason = "stays merged" + (decision.reason.empty() ? "" : ": " + decision.reason) +
+                    "; this match: " + match.result.reason;
       break;
     case EdgeStep::proposed:
       news.verdict = matching::Verdict::wait;

@@ -56,13 +56,5 @@ TEST_F(ConfirmationTest, FinishedMapsGetNoSecondMatch) {
   EXPECT_TRUE(confirmation_.confirm(pair_, last));
 }
 
-TEST_F(ConfirmationTest, WhereMuchContradictsNothingReplacesTheSecondMatch) {
-  Proposal doubtful = proposal(T_right_, 200.0);
-  doubtful.conflict = 0.1;
-  doubtful.last_chance = true;
-  EXPECT_FALSE(confirmation_.confirm(pair_, doubtful));
-  EXPECT_TRUE(confirmation_.confirm(pair_, doubtful));
-}
-
 }  // namespace
 }  // namespace lifeline::merging

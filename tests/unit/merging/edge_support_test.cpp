@@ -34,6 +34,12 @@ class EdgeSupportTest : public testing::Test {
     match.check->conflict_m = agreeing_m * conflict / (1.0 - conflict);
     return match;
   }
+  /// The same where `share` of the contradicting wall is only displaced.
+  [[nodiscard]] PairMatch bent(double conflict, double share) const {
+    PairMatch match = undecided(20.0, conflict);
+    match.check->displaced_m = share * match.check->conflict_m;
+    return match;
+  }
   EdgeStep judge(const PairMatch& match, bool held = true) {
     const MergeEdge edge{T_, Eigen::Matrix3d::Identity(), 0.6};
     decision_ = support_.judge(pair_, match, held ? &edge : nullptr);
@@ -81,6 +87,20 @@ TEST_F(EdgeSupportTest, TwoMatchesAtTwoOtherPlacesEndTheEdge) {
 TEST_F(EdgeSupportTest, AMatchThatDecidesNothingKeepsAnEdgeWhoseWallsStillAgree) {
   merge();
   for (int i = 0; i < 5; ++i) EXPECT_EQ(judge(undecided(19.0, 0.05)), EdgeStep::kept);
+}
+
+TEST_F(EdgeSupportTest, ABentMapKeepsAnEdgeWhoseContradictingWallIsOnlyDisplaced) {
+  merge();
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(judge(bent(0.22, 0.7)), EdgeStep::kept);
+  EXPECT_EQ(decision_.reason,
+            "a map is bent: of 22 % of the wall that contradict, 70 % are only displaced by less "
+            "than 1 m");
+}
+
+TEST_F(EdgeSupportTest, DisplacedWallDoesNotKeepAnEdgeThatOtherWallContradicts) {
+  merge();
+  EXPECT_EQ(judge(bent(0.22, 0.5)), EdgeStep::doubted);
+  EXPECT_EQ(judge(bent(0.22, 0.5)), EdgeStep::withdrawn);
 }
 
 TEST_F(EdgeSupportTest, OneMatchWithoutSupportIsForgottenOnceTheNextSupports) {
