@@ -113,7 +113,10 @@ Result<MapFeatures> build_features(const TsdGrid& tsd) {
   if (!grid) return forward_error(grid);
   if (const auto checked = check_size(*grid); !checked) return forward_error(checked);
   const OccupancyGrid cropped = crop_to_known(*grid, kWallMargin);
-  return complete_with_mirror(cropped, wall_points(tsd, cropped.origin_m), well_seen(cropped, tsd));
+  auto features =
+      complete_with_mirror(cropped, wall_points(tsd, cropped.origin_m), well_seen(cropped, tsd));
+  if (features) features->weighed = true;
+  return features;
 }
 
 }  // namespace lifeline::matching

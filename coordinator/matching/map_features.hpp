@@ -29,6 +29,7 @@ struct MapFeatures {
   Spectrum oriented;                ///< oriented Hough spectrum of `walls`
   double wall_m = 0.0;              ///< length of all walls
   double known_m2 = 0.0;
+  bool weighed = false;  ///< `field` is clear only where many beams passed: from a TSD layer
   /// The same map in a mirror: no building, but one of the same style. How well another map fits on
   /// it tells what chance gives. Has no mirror itself.
   std::shared_ptr<const MapFeatures> mirror;
