@@ -16,17 +16,11 @@ struct Judgement {
   std::string reason;
 };
 
-/// Share of contradicting wall up to which a place may be right.
-double max_conflict(const AcceptanceLimits& limits, const MapFeatures& a, const MapFeatures& b) {
-  return a.weighed && b.weighed ? std::min(limits.max_weighed_conflict, limits.max_conflict)
-                                : limits.max_conflict;
-}
-
 /// Wrong places in regular buildings share tens of metres of wall, but more of it contradicts than
 /// drift and clutter explain in young maps: the less wall speaks, the less of it may contradict.
-double allowed_conflict(const AcceptanceLimits& limits, double max, double agreeing_wall_m) {
+double allowed_conflict(const AcceptanceLimits& limits, double agreeing_wall_m) {
   const double share = std::min(1.0, agreeing_wall_m / limits.much_wall_m);
-  return limits.min_conflict + share * (max - limits.min_conflict);
+  return limits.min_conflict + share * (limits.max_conflict - limits.min_conflict);
 }
 
 double in_degrees(double angle_rad) {
@@ -74,8 +68,7 @@ Judgement judge_spectra(const MatchResult& result, const MatchConfig& config) {
 }
 
 Judgement judge_oriented(const MatchResult& result, const MatchConfig& config,
-                         double max_conflict) {
-  const AcceptanceLimits& limits = config.limits;
+                         const AcceptanceLimits& limits) {
   const MatchCandidate& best = result.candidates.front();
   if (best.agreeing_wall_m < limits.min_agreeing_wall_m) {
     return {Verdict::wait,
@@ -92,14 +85,14 @@ Judgement judge_oriented(const MatchResult& result, const MatchConfig& config,
                         in_degrees(result.bend->rate_rad_per_m),
                         in_degrees(limits.max_bend_rad_per_m))};
   }
-  if (best.conflict > max_conflict) {
+  if (best.conflict > limits.max_conflict) {
     return {
         Verdict::rejected,
         fmt::format("{:.0f} % of the wall at the best place stands in space that the other map saw "
                     "free, at most {:.0f} % may",
-                    100 * best.conflict, 100 * max_conflict)};
+                    100 * best.conflict, 100 * limits.max_conflict)};
   }
-  if (const double allowed = allowed_conflict(limits, max_conflict, best.agreeing_wall_m);
+  if (const double allowed = allowed_conflict(limits, best.agreeing_wall_m);
       best.conflict > allowed) {
     return {Verdict::wait, fmt::format("{:.1f} % of the wall contradicts, too much for {:.1f} m "
                                        "that agree: at most {:.1f} % may",
@@ -150,10 +143,15 @@ Judgement decide(const MapFeatures& a, const MapFeatures& b, const MatchConfig& 
   if (result.candidates.empty()) return {Verdict::wait, "no place was found where walls agree"};
   return config.method == Method::spectra
              ? judge_spectra(result, config)
-             : judge_oriented(result, config, max_conflict(config.limits, a, b));
+             : judge_oriented(result, config, limits_for(a, b, config));
 }
 
 }  // namespace
+
+const AcceptanceLimits& limits_for(const MapFeatures& a, const MapFeatures& b,
+                                   const MatchConfig& config) {
+  return a.weighed && b.weighed ? config.layer_limits : config.limits;
+}
 
 void judge(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config,
            MatchResult& result) {

@@ -5,6 +5,10 @@
 
 namespace lifeline::matching {
 
+/// What is asked of these two maps.
+[[nodiscard]] const AcceptanceLimits& limits_for(const MapFeatures& a, const MapFeatures& b,
+                                                 const MatchConfig& config);
+
 /// Fills in margin, verdict and reason from the candidates of `result`. In doubt the verdict is
 /// wait: maps grow. With Method::spectra the paper's two criteria decide alone.
 void judge(const MapFeatures& a, const MapFeatures& b, const MatchConfig& config,

@@ -21,19 +21,27 @@ enum class Method {
 /// What the default path asks for beyond s_0 and the acceptance index; how the values were found is
 /// told in docs/decisions/0301 to 0303.
 struct AcceptanceLimits {
-  double min_agreeing_wall_m = 4.0;  ///< less could be chance
-  double max_conflict = 0.08;        ///< of the wall that speaks for or against, where much speaks
-  double max_weighed_conflict = 0.05;  ///< the same where both maps tell how well they saw
-  double min_conflict = 0.03;          ///< the same where next to nothing speaks; linear in between
-  double much_wall_m = 14.0;           ///< agreeing wall from which on max_conflict counts
-  double max_conflict_piece_m = 6.0;   ///< in one piece: a wall, no person and no door
-  double min_margin = 0.5;             ///< by which the best leads the second hypothesis
-  double min_control_ratio = 2.0;      ///< to the score that the mirror image of a map gets
+  double min_agreeing_wall_m = 4.0;   ///< less could be chance
+  double max_conflict = 0.08;         ///< of the wall that speaks for or against, where much speaks
+  double min_conflict = 0.03;         ///< the same where next to nothing speaks; linear in between
+  double much_wall_m = 14.0;          ///< agreeing wall from which on max_conflict counts
+  double max_conflict_piece_m = 6.0;  ///< in one piece: a wall, no person and no door
+  double min_margin = 0.5;            ///< by which the best leads the second hypothesis
+  double min_control_ratio = 2.0;     ///< to the score that the mirror image of a map gets
   double max_bend_rad_per_m =
       0.04 * std::numbers::pi / 180.0;  ///< more than one rigid transform can do for
   double min_bend_sds = 3.0;            ///< a smaller bend may be the walls' noise
   double min_constraint_m = 0.8;        ///< else the maps could slide along each other
 };
+
+/// What is asked of two layers, which tell how well they saw and will grow (docs/decisions/0305).
+[[nodiscard]] constexpr AcceptanceLimits layer_limits() {
+  AcceptanceLimits limits;
+  limits.min_agreeing_wall_m = 10.0;
+  limits.max_conflict = 0.05;
+  limits.min_margin = 0.65;
+  return limits;
+}
 
 /// What the caller may choose. The defaults are those of the configuration schema.
 struct MatchConfig {
@@ -43,7 +51,8 @@ struct MatchConfig {
   double min_s_overlapping = 0.01;       ///< s_0 of Eq. 12
   double min_acceptance_index = 0.85;    ///< of Eq. 13
   std::size_t rotation_candidates = 10;  ///< how many peaks of the spectra's correlation are tried
-  AcceptanceLimits limits = {};
+  AcceptanceLimits limits = {};          ///< of pictures, which have no weights
+  AcceptanceLimits layer_limits = matching::layer_limits();
 };
 
 /// One way to lay map b on map a, with the figures that speak for and against it.

@@ -23,7 +23,7 @@ template <class Which>
 Tally judge_again(const std::vector<JudgedPair>& judged, const AcceptanceLimits& limits,
                   const Which& which) {
   matching::MatchConfig config;
-  config.limits = limits;
+  config.limits = config.layer_limits = limits;
   Tally tally;
   for (const JudgedPair& pair : judged) {
     if (pair.pair->kind == "drift10_" || !which(*pair.pair)) continue;

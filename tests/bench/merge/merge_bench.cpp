@@ -25,6 +25,7 @@ struct Options {
   std::filesystem::path pairs = "../shared/data/mapmerge/pairs";
   std::filesystem::path plans = "../shared/data/floorplans/houseexpo";
   std::optional<std::size_t> negatives;
+  std::uint64_t seed = 20240;
 };
 
 /// To stderr: the table comes at the end, a minute or more later.
@@ -40,7 +41,7 @@ Judged judge_all(const std::vector<MergePair>& pairs, const matching::MatchConfi
 
 void write_folds(const std::vector<MergePair>& pairs, Report& report) {
   matching::MatchConfig loose;
-  loose.limits = loose_limits();
+  loose.limits = loose.layer_limits = loose_limits();
   std::size_t right = 0, can_merge = 0;
   for (const Fold& fold : cross_validate(judge_all(pairs, loose))) {
     right += fold.right;
@@ -88,10 +89,11 @@ int run_pairs(const Options& options) {
 }
 
 int run_hard_negatives(const Options& options) {
-  const NegativesOutcome outcome = run_negatives(
-      *options.negatives, options.plans, {}, [](std::size_t pairs, std::size_t wrong) {
-        tell(fmt::format("{} pairs, {} merged wrongly", pairs, wrong));
-      });
+  const NegativesOutcome outcome =
+      run_negatives(*options.negatives, options.plans, options.seed, {},
+                    [](std::size_t pairs, std::size_t wrong) {
+                      tell(fmt::format("{} pairs, {} merged wrongly", pairs, wrong));
+                    });
   Report report{"merge --negatives", describe_machine(), {}};
   for (const NegativeKind& kind : outcome.kinds) {
     report.rows.push_back({fmt::format("{}: merged wrongly of {}", kind.name, kind.pairs),
@@ -122,6 +124,7 @@ int run_merge_bench(std::span<const char* const> arguments) {
   app.add_option("--negatives", options.negatives, "pairs that must not be merged")
       ->expected(0, 1)
       ->default_str("10000");
+  app.add_option("--seed", options.seed, "of the pairs that must not be merged");
   std::vector<std::string> words(arguments.rbegin(), arguments.rend());
   try {
     app.parse(words);

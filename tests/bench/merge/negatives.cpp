@@ -170,12 +170,12 @@ void match_across(const MappedFloor& one, const MappedFloor& other, Kind kind, T
 }  // namespace
 
 NegativesOutcome run_negatives(std::size_t pairs, const std::filesystem::path& plans,
-                               const matching::MatchConfig& config,
+                               std::uint64_t seed, const matching::MatchConfig& config,
                                const std::function<void(std::size_t, std::size_t)>& tell) {
   constexpr int kViews = 8;
   constexpr std::size_t kOthers = 12;  // earlier floors that a floor is held against
   const auto houses = houseexpo_files(plans);
-  Draw draw(20240);
+  Draw draw(seed);
   Tally tally(config, pairs);
   std::vector<MappedFloor> floors;
   for (std::size_t number = 0; !tally.done(); ++number) {

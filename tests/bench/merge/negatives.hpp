@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -35,7 +36,8 @@ struct NegativesOutcome {
 /// The same numbers give the same pairs. `tell` hears after each floor how many pairs were matched
 /// and how many of them merged wrongly.
 [[nodiscard]] NegativesOutcome run_negatives(
-    std::size_t pairs, const std::filesystem::path& plans, const matching::MatchConfig& config,
+    std::size_t pairs, const std::filesystem::path& plans, std::uint64_t seed,
+    const matching::MatchConfig& config,
     const std::function<void(std::size_t, std::size_t)>& tell = {});
 
 }  // namespace lifeline::bench
