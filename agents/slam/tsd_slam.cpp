@@ -263,7 +263,9 @@ bool TsdSlam::push_is_due(const Pose2& T_map_head, Timestamp stamp) const {
 
 void TsdSlam::push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp) {
   const StageTimer timer(times_ == nullptr ? nullptr : &times_->push);
-  const auto changed = updater_.push(pieces, T_map_head, 1.0, map_.own());
+  const double since_s = std::abs(to_seconds(stamp - pushed_stamp_));
+  const Looks looks = since_s < config_.dense_interval_s ? Looks::dense : Looks::sparse;
+  const auto changed = updater_.push(pieces, T_map_head, 1.0, map_.own(), looks);
   map_.note_own_changed(changed);
   tracker_.forget(changed);
   changed_.insert(changed.begin(), changed.end());

@@ -46,7 +46,8 @@ struct SlamConfig {
   IcpConfig icp;
   double push_distance_m = 0.05;  ///< a scan is pushed when the head moved this far ...
   double push_turn_rad = 0.03;    ///< ... or turned this much ...
-  double push_interval_s = 0.25;  ///< ... or this time went by since the last push
+  double push_interval_s = 0.05;  ///< ... or this time went by since the last push
+  double dense_interval_s = 0.3;  ///< pushes closer together than this are dense looks
   KeyframeConfig keyframes;
   LoopConfig loops;
   StoryConfig stories;

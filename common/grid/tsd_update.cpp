@@ -15,25 +15,28 @@ TsdUpdater::TsdUpdater(GridGeometry geometry, PushConfig config)
 }
 
 std::span<const TileIndex> TsdUpdater::push(std::span<const SurfacePiece> pieces,
-                                            const Pose2& T_map_head, double weight, TsdGrid& grid) {
+                                            const Pose2& T_map_head, double weight, TsdGrid& grid,
+                                            Looks looks) {
   LIFELINE_CHECK(grid.geometry() == geometry_);
   LIFELINE_CHECK(T_map_head.is_finite() && weight > 0.0 && weight <= 1.0);
   changed_.clear();
   raster_.draw(pieces, T_map_head, static_cast<float>(weight));
   for (const auto& seen : raster_.tiles()) {
-    if (merge(*seen, grid.at(seen->index))) changed_.push_back(seen->index);
+    if (merge(*seen, grid.at(seen->index), looks)) changed_.push_back(seen->index);
   }
   std::sort(changed_.begin(), changed_.end());
   return changed_;
 }
 
-bool TsdUpdater::merge(const ScanRaster::Tile& seen, TsdTile& tile) const {
+bool TsdUpdater::merge(const ScanRaster::Tile& seen, TsdTile& tile, Looks looks) const {
   bool changed = false;
   for (std::size_t row = 0; row < kTileSide; ++row) {
     const std::size_t end = row * kTileSide + seen.last[row];
     for (std::size_t i = row * kTileSide + seen.first[row]; i < end; ++i) {
       const TsdCell before = tile[i];
-      const TsdCell after = updated(before, seen.cells[i], weight_cap_);
+      const TsdCell after = looks == Looks::dense
+                                ? updated_densely(before, seen.cells[i], weight_cap_)
+                                : updated(before, seen.cells[i], weight_cap_);
       if (after == before) continue;
       tile[i] = after;
       changed = true;

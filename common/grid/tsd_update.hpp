@@ -23,6 +23,12 @@ struct PushConfig {
 /// has changed, and the old one loses weight with each such observation.
 inline constexpr int kContradiction = TsdCell::kTsdOne * 3 / 4;
 
+/// Does `seen` lie deep behind a surface, where `cell` was seen free from its own side?
+[[nodiscard]] inline bool is_hidden_side(TsdCell cell, TsdCell seen) {
+  constexpr int kDeep = -TsdCell::kTsdOne * 2 / 5;
+  return seen.tsd < kDeep && cell.tsd > 0 && cell.weight > 4 * seen.weight;
+}
+
 /// Eq. 2 and 3 for one cell: the running mean of `cell` and `seen`, both weighted, the weight
 /// capped at `weight_cap` (TsdCell units). An unknown `seen` changes nothing.
 ///
@@ -36,8 +42,7 @@ inline constexpr int kContradiction = TsdCell::kTsdOne * 3 / 4;
   if (seen.tsd == cell.tsd) {
     return {cell.tsd, static_cast<std::uint16_t>(std::min(cell.weight + seen.weight, weight_cap))};
   }
-  constexpr int kDeep = -TsdCell::kTsdOne * 2 / 5;
-  if (seen.tsd < kDeep && cell.tsd > 0 && cell.weight > 4 * seen.weight) return cell;
+  if (is_hidden_side(cell, seen)) return cell;
   int weight = cell.weight;
   if (std::abs(seen.tsd - cell.tsd) > kContradiction) {
     weight -= weight * seen.weight / (4 * TsdCell::kWeightOne);
@@ -49,6 +54,28 @@ inline constexpr int kContradiction = TsdCell::kTsdOne * 3 / 4;
           static_cast<std::uint16_t>(std::min(total, weight_cap))};
 }
 
+/// How close a scan comes upon the one before it.
+enum class Looks {
+  sparse,  ///< keyframes: each look has to count at once
+  dense,   ///< several a second from about one place: what one gets wrong, the next ones mend
+};
+
+/// updated() among dense looks (docs/decisions/0210). Two distances that differ by half of the
+/// range of one side contradict each other. A contradiction leaves the cell's distance as it is and
+/// takes up to five eighths of its weight; when no more is left than two such looks weigh, what is
+/// seen takes the cell's place. So a door is learnt within 20 looks, however long it had stood
+/// otherwise, and what is seen again in between, like glass, stays where it is.
+[[nodiscard]] inline TsdCell updated_densely(TsdCell cell, TsdCell seen, int weight_cap) {
+  const bool contradicts = cell.known() && seen.known() &&
+                           std::abs(seen.tsd - cell.tsd) > TsdCell::kTsdOne / 2 &&
+                           !is_hidden_side(cell, seen);
+  if (!contradicts) return updated(cell, seen, weight_cap);
+  const int lost = cell.weight * seen.weight * 5 / (8 * TsdCell::kWeightOne);
+  const int left = cell.weight - std::max(1, lost);
+  if (left <= 2 * seen.weight) return seen;
+  return {cell.tsd, static_cast<std::uint16_t>(left)};
+}
+
 /// Pushes scans into TSD grids. Keeps scratch memory between scans; one owner.
 class TsdUpdater {
  public:
@@ -56,13 +83,14 @@ class TsdUpdater {
 
   /// Updates `grid` (of the geometry given at construction) with a scan taken at `T_map_head`,
   /// whose surfaces are `pieces`. `weight` in (0, 1] scales every w_k: how much this scan is
-  /// trusted. Cells beyond the largest tile index are left out. Returns the tiles in which any cell
-  /// changed, ordered by x, then y; valid until the next push.
+  /// trusted; `looks` how contradictions are taken. Cells beyond the largest tile index are left
+  /// out. Returns the tiles in which any cell changed, ordered by x, then y; valid until the next
+  /// push.
   std::span<const TileIndex> push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head,
-                                  double weight, TsdGrid& grid);
+                                  double weight, TsdGrid& grid, Looks looks = Looks::sparse);
 
  private:
-  [[nodiscard]] bool merge(const ScanRaster::Tile& seen, TsdTile& tile) const;
+  [[nodiscard]] bool merge(const ScanRaster::Tile& seen, TsdTile& tile, Looks looks) const;
 
   GridGeometry geometry_;
   int weight_cap_;

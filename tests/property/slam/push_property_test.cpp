@@ -236,5 +236,55 @@ TEST(RayCastProperty, FastWalkAgreesWithTheSlowOne) {
   EXPECT_GT(static_cast<double>(agree), 0.98 * static_cast<double>(rays));
 }
 
+/// Is there a way from free to behind a surface along +x, within 15 cm of (x, y)?
+bool is_wall_at(const TsdGrid& grid, double x, double y) {
+  const CellIndex middle = grid.cell_at({x, y});
+  for (int k = -3; k < 3; ++k) {
+    const TsdCell a = grid.cell({middle.x + k, middle.y});
+    const TsdCell b = grid.cell({middle.x + k + 1, middle.y});
+    if (a.known() && b.known() && a.tsd > 0 && b.tsd <= 0) return true;
+  }
+  return false;
+}
+
+/// Two rooms with a doorway of 0.9 m at `x`; its leaf is there or not.
+FlatWorld rooms_with_door(double x, bool is_closed) {
+  FlatWorld world;
+  world.add_box(-4.0, -3.0, 6.0, 3.0);
+  for (const double side : {-1.0, 1.0}) {
+    world.add(x - 0.05, side * 3.0, x - 0.05, side * 0.45)
+        .add(x + 0.05, side * 3.0, x + 0.05, side * 0.45)
+        .add(x - 0.05, side * 0.45, x + 0.05, side * 0.45);
+  }
+  if (is_closed) world.add(x - 0.02, -0.45, x - 0.02, 0.45).add(x + 0.02, -0.45, x + 0.02, 0.45);
+  return world;
+}
+
+TEST(PushProperty, ADoorThatMovedIsLearntWithin20DenseLooksBothWays) {
+  const support::Lidar lidar{.noise_m = 0.01};
+  std::mt19937 random(24);
+  std::normal_distribution<double> off(0.0, 1.0);
+  for (const double x : {1.0, 1.013, 2.025, 2.037}) {
+    for (const bool closes : {true, false}) {
+      for (const int looks_before : {2, 8, 40, 200}) {
+        TsdGrid grid(kGeometry);
+        TsdUpdater updater(kGeometry, {});
+        const auto look = [&](bool is_closed) {
+          const Pose2 T{0.1, 0.2, 0.3};
+          const Pose2 seen_from{0.1 + 0.01 * off(random), 0.2 + 0.01 * off(random),
+                                0.3 + 0.004 * off(random)};
+          const Scan2 scan = scan_of(rooms_with_door(x, is_closed), T, lidar, &random);
+          (void)updater.push(extract_surface(scan), seen_from, 1.0, grid, Looks::dense);
+        };
+        for (int i = 0; i < looks_before; ++i) look(!closes);
+        for (int i = 0; i < 20; ++i) look(closes);
+        for (double y = -0.3; y < 0.31; y += 0.05) {
+          EXPECT_EQ(is_wall_at(grid, x, y), closes) << x << " " << y << " " << looks_before;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lifeline

@@ -75,14 +75,68 @@ TEST(UpdatedCell, WhatLiesDeepBehindASurfaceDoesNotOverruleItsOtherSide) {
   EXPECT_NE(updated(seen_from_its_side, cell(-0.2, 0.7), kCap), seen_from_its_side);
 }
 
+/// How many dense looks `seen` it takes until `from` changes its sign.
+int dense_looks_until_learnt(TsdCell from, TsdCell seen) {
+  int looks = 0;
+  for (TsdCell now = from; (now.tsd > 0) == (from.tsd > 0) && looks < 1000; ++looks) {
+    now = updated_densely(now, seen, kCap);
+  }
+  return looks;
+}
+
+TEST(UpdatedCellDensely, AChangedWorldIsLearntWithin20LooksHoweverSureTheCellWas) {
+  for (double weight = 0.5; weight <= 32.0; weight += 0.5) {
+    // A door has opened ...
+    for (double was = -0.9; was < 0.0; was += 0.1) {
+      EXPECT_LE(dense_looks_until_learnt(cell(was, weight), cell(1.0, 0.5)), 20) << weight;
+    }
+    // ... or closed.
+    for (double is = -0.38; is < 0.0; is += 0.06) {
+      const double seen_weight = 0.8 * (1.0 + is) * (1.0 + is);
+      EXPECT_LE(dense_looks_until_learnt(cell(1.0, weight), cell(is, seen_weight)), 20) << weight;
+    }
+  }
+}
+
+TEST(UpdatedCellDensely, WhatIsSeenEverySecondTimeStaysWhereItIs) {
+  TsdCell glass = cell(-0.2, 8.0);
+  for (int i = 0; i < 1000; ++i) {
+    glass = updated_densely(glass, i % 2 == 0 ? cell(1.0, 0.5) : cell(-0.2, 0.9), kCap);
+    EXPECT_EQ(glass.tsd, cell(-0.2, 1.0).tsd) << i;
+  }
+}
+
+TEST(UpdatedCellDensely, AFewWrongLooksDoNotShiftAWall) {
+  TsdCell wall = cell(-0.2, 32.0);
+  for (int i = 0; i < 5; ++i) wall = updated_densely(wall, cell(1.0, 0.5), kCap);
+  EXPECT_EQ(wall.tsd, cell(-0.2, 1.0).tsd);
+  EXPECT_LT(wall.weight_value(), 10.0F);
+}
+
+TEST(UpdatedCellDensely, IsEquations2And3WhereNothingContradicts) {
+  for (double was = -1.0; was <= 1.0; was += 0.1) {
+    for (double is = was - 0.49; is <= was + 0.49; is += 0.07) {
+      if (std::abs(is) > 1.0) continue;
+      EXPECT_EQ(updated_densely(cell(was, 3.0), cell(is, 0.6), kCap),
+                updated(cell(was, 3.0), cell(is, 0.6), kCap));
+    }
+  }
+}
+
+TEST(UpdatedCellDensely, WhatLiesDeepBehindASurfaceDoesNotOverruleItsOtherSide) {
+  const TsdCell seen_from_its_side = cell(0.3, 4.0);
+  EXPECT_EQ(updated_densely(seen_from_its_side, cell(-0.8, 0.05), kCap), seen_from_its_side);
+}
+
 /// A grid and its updater at the usual geometry.
 struct Map {
   GridGeometry geometry{0.05, 0.15};
   TsdGrid grid{geometry};
   TsdUpdater updater{geometry, {}};
 
-  std::vector<TileIndex> push(const Scan2& scan, const Pose2& T_map_head, double weight = 1.0) {
-    const auto changed = updater.push(extract_surface(scan), T_map_head, weight, grid);
+  std::vector<TileIndex> push(const Scan2& scan, const Pose2& T_map_head, double weight = 1.0,
+                              Looks looks = Looks::sparse) {
+    const auto changed = updater.push(extract_surface(scan), T_map_head, weight, grid, looks);
     return {changed.begin(), changed.end()};
   }
   [[nodiscard]] TsdCell at(double x, double y) const { return grid.cell(grid.cell_at({x, y})); }
@@ -167,14 +221,16 @@ TEST(PushScan, AWallSeenAtAFlatAngleIsNotCarvedThrough) {
   }
 }
 
-TEST(PushScan, AThinWallSeenFromBothSidesKeepsBoth) {
+void expect_thin_walls_keep_both_sides(Looks looks) {
   Map map;
   const FlatWorld world = FlatWorld().add(2.0, -5.0, 2.0, 5.0).add(2.1, -5.0, 2.1, 5.0);
   const support::Lidar back{
       .beams = 121, .first_angle_rad = M_PI - M_PI / 3, .step_rad = M_PI / 180};
   // Long looks from one side, few from the other: what the first extrapolated fades.
-  for (int i = 0; i < 200; ++i) map.push(scan_of(world, {}, kForward), {});
-  for (int i = 0; i < 20; ++i) map.push(scan_of(world, {4.0, 0.0, 0.0}, back), {4.0, 0.0, 0.0});
+  for (int i = 0; i < 200; ++i) map.push(scan_of(world, {}, kForward), {}, 1.0, looks);
+  for (int i = 0; i < 20; ++i) {
+    map.push(scan_of(world, {4.0, 0.0, 0.0}, back), {4.0, 0.0, 0.0}, 1.0, looks);
+  }
   for (double y = -1.5; y < 1.5; y += 0.13) {
     EXPECT_GT(map.at(1.97, y).tsd, 0) << y;
     EXPECT_GT(map.at(2.13, y).tsd, 0) << y;
@@ -183,6 +239,14 @@ TEST(PushScan, AThinWallSeenFromBothSidesKeepsBoth) {
   }
   const OccupancyGrid occupancy = to_occupancy(map.grid).value();
   EXPECT_GT(known_cells(occupancy), 1000U);
+}
+
+TEST(PushScan, AThinWallSeenFromBothSidesKeepsBoth) {
+  expect_thin_walls_keep_both_sides(Looks::sparse);
+}
+
+TEST(PushScan, AThinWallSeenFromBothSidesKeepsBothAmongDenseLooks) {
+  expect_thin_walls_keep_both_sides(Looks::dense);
 }
 
 TEST(PushScan, WhatMovedAwayIsForgotten) {
