@@ -12,9 +12,7 @@ namespace {
 
 merging::PlaceCheck check_place(const matching::MapFeatures& a, const matching::MapFeatures& b,
                                 const Pose2& T_a_b, const matching::MatchConfig& config) {
-  const Pose2 T_a_a_local{a.origin_map_m.x(), a.origin_map_m.y(), 0.0};
-  const Pose2 T_b_b_local{b.origin_map_m.x(), b.origin_map_m.y(), 0.0};
-  const Pose2 T_a_b_local = T_a_a_local.inverse() * T_a_b * T_b_b_local;
+  const Pose2 T_a_b_local = matching::to_local_frames(a, b, T_a_b);
   const auto measured = matching::measure_candidate(a, b, T_a_b_local, config);
   const auto& figures = measured.candidate;
   merging::PlaceCheck check{

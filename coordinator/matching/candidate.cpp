@@ -20,6 +20,10 @@ Pose2 to_map_frames(const MapFeatures& a, const MapFeatures& b, const Pose2& T_a
   return shift_by(a.origin_map_m) * T_a_b_local * shift_by(-b.origin_map_m);
 }
 
+Pose2 to_local_frames(const MapFeatures& a, const MapFeatures& b, const Pose2& T_a_b) {
+  return shift_by(-a.origin_map_m) * T_a_b * shift_by(b.origin_map_m);
+}
+
 MeasuredCandidate measure_candidate(const MapFeatures& a, const MapFeatures& b,
                                     const Pose2& T_a_b_local, const MatchConfig& config) {
   const WallFigures b_on_a = compare_walls(b.walls, T_a_b_local, a, kFineGate);

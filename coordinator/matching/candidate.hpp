@@ -26,5 +26,7 @@ struct MeasuredCandidate {
 /// Between the map frames, given between the local frames.
 [[nodiscard]] Pose2 to_map_frames(const MapFeatures& a, const MapFeatures& b,
                                   const Pose2& T_a_b_local);
+/// The other way round.
+[[nodiscard]] Pose2 to_local_frames(const MapFeatures& a, const MapFeatures& b, const Pose2& T_a_b);
 
 }  // namespace lifeline::matching

@@ -37,6 +37,24 @@ const WallPoint* agreeing_wall(const MapFeatures& a, const Eigen::Vector2f& p,
   return agrees ? &other : nullptr;
 }
 
+std::pair<int, int> square_at(const Eigen::Vector2f& p, float side_m) {
+  return {static_cast<int>(std::floor(p.x() / side_m)),
+          static_cast<int>(std::floor(p.y() / side_m))};
+}
+
+/// Calls visit(wall, p, normal), both in a's frame, for the wall of b that lies in a's clear space.
+template <typename Visit>
+void for_contradicting(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
+                       const MapFeatures& a, Visit visit) {
+  const Rigid2f transform(T_a_b);
+  for (const WallPoint& wall : walls) {
+    const Eigen::Vector2f p = transform * wall.p;
+    if (a.field.place(p) != WallField::Place::clear) continue;
+    const Eigen::Vector2f normal = transform.turn(wall.normal);
+    if (agreeing_wall(a, p, normal, kFineGate) == nullptr) visit(wall, p, normal);
+  }
+}
+
 /// Removes the piece that `start` belongs to from `squares`; its length.
 float take_piece(std::map<std::pair<int, int>, float>& squares, std::pair<int, int> start) {
   float length_m = 0;
@@ -59,12 +77,12 @@ float take_piece(std::map<std::pair<int, int>, float>& squares, std::pair<int, i
 class DisplacedWallFinder {
  public:
   explicit DisplacedWallFinder(const std::vector<WallPoint>& walls) {
-    for (const WallPoint& wall : walls) squares_[square_of(wall.p)].push_back(&wall);
+    for (const WallPoint& wall : walls) squares_[square_at(wall.p, kReach_m)].push_back(&wall);
   }
 
   /// Whether there is wall beside `p` that faces like `normal`.
   [[nodiscard]] bool finds(const Eigen::Vector2f& p, const Eigen::Vector2f& normal) const {
-    const auto [x, y] = square_of(p);
+    const auto [x, y] = square_at(p, kReach_m);
     for (const int dy : {-1, 0, 1}) {
       for (const int dx : {-1, 0, 1}) {
         const auto square = squares_.find({x + dx, y + dy});
@@ -79,11 +97,6 @@ class DisplacedWallFinder {
 
  private:
   static constexpr float kReach_m = 1.0F;
-
-  static std::pair<int, int> square_of(const Eigen::Vector2f& p) {
-    return {static_cast<int>(std::floor(p.x() / kReach_m)),
-            static_cast<int>(std::floor(p.y() / kReach_m))};
-  }
 
   static bool is_beside(const WallPoint& wall, const Eigen::Vector2f& p,
                         const Eigen::Vector2f& normal) {
@@ -101,30 +114,21 @@ class DisplacedWallFinder {
 
 double displaced_conflict_m(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
                             const MapFeatures& a) {
-  const Rigid2f transform(T_a_b);
   const DisplacedWallFinder finder(a.skeleton);
   double displaced_m = 0.0;
-  for (const WallPoint& wall : walls) {
-    const Eigen::Vector2f p = transform * wall.p, normal = transform.turn(wall.normal);
-    if (a.field.place(p) != WallField::Place::clear) continue;
-    if (agreeing_wall(a, p, normal, kFineGate) != nullptr) continue;
+  for_contradicting(walls, T_a_b, a, [&](const WallPoint& wall, const auto& p, const auto& normal) {
     if (finder.finds(p, normal)) displaced_m += static_cast<double>(wall.length_m);
-  }
+  });
   return displaced_m;
 }
 
 double longest_conflict_m(const std::vector<WallPoint>& walls, const Pose2& T_a_b,
                           const MapFeatures& a) {
   constexpr float kSquare_m = 0.2F;
-  const Rigid2f transform(T_a_b);
   std::map<std::pair<int, int>, float> squares;
-  for (const WallPoint& wall : walls) {
-    const Eigen::Vector2f p = transform * wall.p;
-    if (a.field.place(p) != WallField::Place::clear) continue;
-    if (agreeing_wall(a, p, transform.turn(wall.normal), kFineGate) != nullptr) continue;
-    squares[{static_cast<int>(std::floor(p.x() / kSquare_m)),
-             static_cast<int>(std::floor(p.y() / kSquare_m))}] += wall.length_m;
-  }
+  for_contradicting(walls, T_a_b, a, [&](const WallPoint& wall, const auto& p, const auto&) {
+    squares[square_at(p, kSquare_m)] += wall.length_m;
+  });
   float longest_m = 0;
   while (!squares.empty()) {
     longest_m = std::max(longest_m, take_piece(squares, squares.begin()->first));

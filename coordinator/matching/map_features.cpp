@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/check.hpp"
+#include "coordinator/matching/known_cells.hpp"
 #include "coordinator/matching/preprocess.hpp"
 
 namespace lifeline::matching {
@@ -37,13 +38,14 @@ OccupancyGrid well_seen(const OccupancyGrid& grid, const TsdGrid& tsd) {
   const CellIndex corner =
       tsd.cell_at(grid.origin_m + Eigen::Vector2d::Constant(0.5 * grid.cell_size_m));
   for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      Occupancy& cell = seen.cells[grid.index(column, row)];
+    const std::size_t first = grid.index(0, row);
+    for_known_cells(grid.cells.data() + first, grid.columns, [&](int column) {
+      Occupancy& cell = seen.cells[first + static_cast<std::size_t>(column)];
       if (cell == Occupancy::free &&
           tsd.cell({corner.x + column, corner.y + row}).weight_value() < kMinWeight) {
         cell = Occupancy::unknown;
       }
-    }
+    });
   }
   return seen;
 }

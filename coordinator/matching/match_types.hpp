@@ -51,7 +51,7 @@ struct MatchConfig {
   double min_s_overlapping = 0.01;       ///< s_0 of Eq. 12
   double min_acceptance_index = 0.85;    ///< of Eq. 13
   std::size_t rotation_candidates = 10;  ///< how many peaks of the spectra's correlation are tried
-  AcceptanceLimits limits = {};          ///< of pictures, which have no weights
+  AcceptanceLimits limits = {};          ///< where a map is a picture: it has no weights
   AcceptanceLimits layer_limits = matching::layer_limits();
 };
 

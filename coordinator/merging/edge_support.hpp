@@ -41,16 +41,16 @@ enum class EdgeStep {
 
 struct EdgeDecision {
   EdgeStep step = EdgeStep::none;
-  std::string
-      reason;  ///< for `proposed`, `doubted`, `withdrawn`, moves, and `kept` in spite of conflict
+  /// For `proposed`, `doubted`, `withdrawn`, moves, and `kept` in spite of conflict; one sentence.
+  std::string reason;
 };
 
 /// When an edge loses its support.
 struct SupportConfig {
   double max_conflict =
-      0.18;  ///< share of contradicting wall at the held place; matches accept 0.08
+      0.18;  ///< share of contradicting wall at the held place; layers are accepted up to 0.05
   /// The same without displaced wall. Wrong places that agree over more than 15 m while more than
-  /// max_conflict contradicts have 0.09 and more of it, bent maps at their right place 0.07.
+  /// max_conflict contradicts have 0.09 and more of it, bent maps at their right place up to 0.08.
   double max_foreign_conflict = 0.08;
   double min_conflict_m = 2.0;      ///< less contradicting wall than this may be a door or a person
   double min_agreeing_share = 0.5;  ///< of the wall that agreed when the edge was measured

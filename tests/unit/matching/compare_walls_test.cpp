@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coordinator/matching/candidate.hpp"
 #include "tests/support/drawn_building.hpp"
 
 namespace lifeline::matching {
@@ -27,8 +28,7 @@ struct Contradiction {
 };
 
 Contradiction compare(const MapFeatures& a, const MapFeatures& b) {
-  const Pose2 T_a_b{b.origin_map_m.x() - a.origin_map_m.x(),
-                    b.origin_map_m.y() - a.origin_map_m.y(), 0.0};
+  const Pose2 T_a_b = to_local_frames(a, b, {});
   return {compare_walls(b.walls, T_a_b, a, kFineGate).conflicting_m,
           displaced_conflict_m(b.walls, T_a_b, a)};
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coordinator/matching/candidate.hpp"
 #include "coordinator/matching/compare_walls.hpp"
 #include "tests/support/drawn_building.hpp"
 
@@ -32,8 +33,7 @@ MapFeatures wall_across() {
 }
 
 double conflicting_m(const MapFeatures& a, const MapFeatures& b) {
-  const Pose2 T_a_b{b.origin_map_m.x() - a.origin_map_m.x(),
-                    b.origin_map_m.y() - a.origin_map_m.y(), 0.0};
+  const Pose2 T_a_b = to_local_frames(a, b, {});
   return compare_walls(b.walls, T_a_b, a, kFineGate).conflicting_m;
 }
 
