@@ -17,6 +17,8 @@ done
 
 jobs=1
 fuzz_seconds=20
+# Minutes under a sanitizer, and other numbers through code that other tests run there as well.
+repetitions='BentMapTest.*InBuilding[23]|IsMatchedNoMoreThanOnceASecond.*of20cm|NoneOf300IsMerged'
 
 build() {  # PRESET [TARGET...]
   local preset="$1"
@@ -32,26 +34,29 @@ run_tests() {  # PRESET [CTEST OPTIONS...]
   return "${PIPESTATUS[0]}"
 }
 
-# Every fuzz target for a while, each on what it found in earlier runs (build/fuzz/corpus/).
+# One fuzz target for a while, on what it found in earlier runs (build/fuzz/corpus/).
+run_fuzzer() {  # NAME
+  local name="$1"
+  local seeds="tests/fuzz/${name%_fuzz}/seeds" log="build/fuzz/$name.log"
+  [[ -d "$seeds" ]] || seeds=""
+  mkdir -p "build/fuzz/corpus/$name" "build/fuzz/failures"
+  if ! "build/fuzz/bin/$name" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/failures/$name-" "build/fuzz/corpus/$name" ${seeds:+"$seeds"} >"$log" 2>&1; then
+    tail -n 40 "$log"
+    echo "$name: failed; its input is in build/fuzz/failures/"
+    return 1
+  fi
+  printf '%s: %s runs in %d s, nothing found\n' "$name" \
+    "$(awk '/stat::number_of_executed_units/ {print $2}' "$log")" "$fuzz_seconds"
+}
+
 run_fuzzers() {
-  local fuzzer name found=no
-  for fuzzer in build/fuzz/bin/*_fuzz; do
-    [[ -x "$fuzzer" ]] || continue
-    found=yes
-    name="${fuzzer##*/}"
-    mkdir -p "build/fuzz/corpus/$name" "build/fuzz/failures"
-    local seeds="tests/fuzz/${name%_fuzz}/seeds" log="build/fuzz/$name.log"
-    [[ -d "$seeds" ]] || seeds=""
-    if ! "$fuzzer" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
-      -artifact_prefix="build/fuzz/failures/$name-" "build/fuzz/corpus/$name" ${seeds:+"$seeds"} >"$log" 2>&1; then
-      tail -n 40 "$log"
-      echo "$name: failed; its input is in build/fuzz/failures/"
-      return 1
-    fi
-    printf '%s: %s runs in %d s, nothing found\n' "$name" \
-      "$(awk '/stat::number_of_executed_units/ {print $2}' "$log")" "$fuzz_seconds"
-  done
-  [[ "$found" == yes ]] || { echo "no fuzz target was built"; return 1; }
+  local names
+  names="$(find build/fuzz/bin -name '*_fuzz' -printf '%f\n' | sort)"
+  [[ -n "$names" ]] || { echo "no fuzz target was built"; return 1; }
+  export -f run_fuzzer
+  export fuzz_seconds
+  xargs -P "$jobs" -I NAME bash -euo pipefail -c 'run_fuzzer NAME' <<<"$names"
 }
 
 phase "packages" deploy/setup.sh
@@ -60,7 +65,7 @@ phase "build (dev)" build dev
 phase "tests (dev)" run_tests dev
 if [[ "$deep" == yes ]]; then
   phase "build (address and undefined behaviour sanitizers)" build asan-ubsan
-  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan -LE 'system|bench'
+  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan -LE 'system|bench' -E "$repetitions"
   phase "build (thread sanitizer)" build tsan lifeline_thread_tests
   phase "tests (thread sanitizer)" run_tests tsan -L threads
   phase "build (fuzz targets)" build fuzz lifeline_fuzzers
