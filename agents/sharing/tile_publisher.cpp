@@ -4,6 +4,7 @@
 
 #include "common/sharing/accept.hpp"
 #include "common/wire/tile_codec.hpp"
+#include "common/wire/tile_parts.hpp"
 
 namespace lifeline::sharing {
 
@@ -70,21 +71,35 @@ std::size_t TilePublisher::changed_cells(TileIndex tile, const QuantisedTile& ce
 Result<void> TilePublisher::publish(TileIndex tile, SteadyTime now, Timestamp wall_now,
                                     ReplicaStore& store) {
   const auto cells = waiting_.at(tile);
-  const auto last = published_.find(tile);
-  const Revision revision{last == published_.end() ? 1 : last->second.revision.value + 1};
+  Revision& revision = newest_revisions_[tile];
+  ++revision.value;
+  if (auto sent = send(tile, revision, wall_now, wire::encode_tile(*cells, store.geometry()));
+      !sent) {
+    return sent;
+  }
+  // Held only once it left: what nobody else can get must not be in our own common map either.
+  store.put_own(layer_, tile, revision, cells);
+  published_[tile] = {now, cells};
+  waiting_.erase(tile);
+  return {};
+}
+
+Result<void> TilePublisher::send(TileIndex tile, Revision revision, Timestamp wall_now,
+                                 const std::vector<std::uint8_t>& payload) {
   wire::TsdTile sample;
-  sample.envelope = stamper_.next(wall_now);
   sample.layer = to_layer_name(layer_);
   sample.tile_x = tile.x;
   sample.tile_y = tile.y;
   sample.revision = revision.value;
-  sample.payload = wire::encode_tile(*cells, store.geometry());
-  allowance_bits_ -= 8.0 * static_cast<double>(sample.payload.size());
-  if (auto sent = outbox_.put(sample); !sent) return sent;
-  // Held only once it left: what nobody else can get must not be in our own common map either.
-  store.put_own(layer_, tile, revision, cells);
-  published_[tile] = {revision, now, cells};
-  waiting_.erase(tile);
+  const auto parts = wire::split_payload(payload);
+  sample.parts = static_cast<std::uint8_t>(parts.size());
+  for (std::uint8_t part = 0; part < sample.parts; ++part) {
+    sample.envelope = stamper_.next(wall_now);
+    sample.part = part;
+    sample.payload = parts[part];
+    allowance_bits_ -= 8.0 * static_cast<double>(sample.payload.size());
+    if (auto sent = outbox_.put(sample); !sent) return sent;
+  }
   return {};
 }
 

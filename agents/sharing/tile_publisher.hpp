@@ -40,7 +40,6 @@ class TilePublisher {
 
  private:
   struct Published {
-    Revision revision;
     SteadyTime at;
     std::shared_ptr<const QuantisedTile> cells;
   };
@@ -54,6 +53,8 @@ class TilePublisher {
   [[nodiscard]] std::size_t changed_cells(TileIndex tile, const QuantisedTile& cells) const;
   [[nodiscard]] Result<void> publish(TileIndex tile, SteadyTime now, Timestamp wall_now,
                                      ReplicaStore& store);
+  [[nodiscard]] Result<void> send(TileIndex tile, Revision revision, Timestamp wall_now,
+                                  const std::vector<std::uint8_t>& payload);
 
   TilePublisherConfig config_;
   LayerKey layer_;
@@ -61,6 +62,8 @@ class TilePublisher {
   wire::Outbox<wire::TsdTile>& outbox_;
   std::map<TileIndex, std::shared_ptr<const QuantisedTile>> waiting_;
   std::map<TileIndex, Published> published_;
+  /// Also of what was sent in part only: no two contents may share a revision.
+  std::map<TileIndex, Revision> newest_revisions_;
   double allowance_bits_;
   SteadyTime refilled_at_{};
 };

@@ -75,7 +75,7 @@ Result<void> check_bounds(const HelmetScan& message) {
 Result<void> check_bounds(const TsdTile& message) {
   return bounds_of(message)
       .add(message.layer, "layer.agent_id")
-      .at_most(message.payload, kMaxTilePayload, "payload")
+      .at_most(message.payload, kMaxTilePart, "payload")
       .result();
 }
 

@@ -59,6 +59,8 @@ Result<void> to_idl(const wire::TsdTile& message, msg::TsdTile& out) {
   out.floor(message.layer.floor);
   out.tile_x(message.tile_x);
   out.tile_y(message.tile_y);
+  out.part(message.part);
+  out.parts(message.parts);
   out.revision(message.revision);
   out.payload(message.payload);
   return {};
@@ -69,6 +71,8 @@ wire::TsdTile from_idl(const msg::TsdTile& sample) {
           .layer = {sample.agent_id().to_string(), sample.map_id(), sample.floor()},
           .tile_x = sample.tile_x(),
           .tile_y = sample.tile_y(),
+          .part = sample.part(),
+          .parts = sample.parts(),
           .revision = sample.revision(),
           .payload = sample.payload()};
 }

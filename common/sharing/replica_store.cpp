@@ -38,11 +38,30 @@ Result<Applied> ReplicaStore::apply(const wire::TsdTile& sample) {
       if (held->second.revision > revision) return Applied::older;
     }
   }
-  auto cells = wire::decode_tile(sample.payload, geometry_);
+  const auto cells = join({*key, tile}, sample);
   if (!cells) return forward_error(cells);
-  layers_[*key][tile] = {revision, std::make_shared<const QuantisedTile>(*cells)};
+  if (!*cells) return Applied::part;
+  layers_[*key][tile] = {revision, std::make_shared<const QuantisedTile>(**cells)};
   changed_.push_back({*key, tile});
   return Applied::newer;
+}
+
+Result<std::optional<QuantisedTile>> ReplicaStore::join(const ChangedTile& tile,
+                                                        const wire::TsdTile& sample) {
+  const std::pair name{tile.layer, tile.tile};
+  if (incomplete_.size() >= kMaxIncompleteTiles && !incomplete_.contains(name)) {
+    return fail(ErrorCode::bad_data, "{} tiles are incomplete; no more are begun",
+                incomplete_.size());
+  }
+  const auto [parts, is_first] = incomplete_.try_emplace(name);
+  auto whole = parts->second.add(sample);
+  if (!whole && is_first) incomplete_.erase(parts);
+  if (!whole) return forward_error(whole);
+  if (!*whole) return std::nullopt;
+  incomplete_.erase(parts);
+  auto cells = wire::decode_tile(**whole, geometry_);
+  if (!cells) return forward_error(cells);
+  return std::optional(*cells);
 }
 
 void ReplicaStore::put_own(const LayerKey& layer, TileIndex tile, Revision revision,

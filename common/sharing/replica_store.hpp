@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/base/ids.hpp"
 #include "common/base/result.hpp"
 #include "common/grid/tsd_grid.hpp"
 #include "common/wire/messages.hpp"
+#include "common/wire/tile_parts.hpp"
 
 namespace lifeline::sharing {
 
@@ -27,6 +30,7 @@ enum class Applied {
   newer,     ///< the sample replaced what was held
   repeated,  ///< the same revision again: nothing changed
   older,     ///< refused: a newer revision is held
+  part,      ///< kept until the revision's other parts are there
 };
 
 /// Every helmet's layer as published, the own one included, each apart from the others
@@ -36,6 +40,7 @@ class ReplicaStore {
  public:
   static constexpr std::size_t kMaxLayers = 64;
   static constexpr std::size_t kMaxTilesPerLayer = 16384;
+  static constexpr std::size_t kMaxIncompleteTiles = 4096;  ///< of all layers together
 
   struct ChangedTile {
     LayerKey layer;
@@ -44,8 +49,9 @@ class ReplicaStore {
 
   explicit ReplicaStore(GridGeometry geometry) : geometry_(geometry) {}
 
-  /// Takes in a tile sample whose envelope was accepted. An error (undecodable payload, other cell
-  /// size, tile out of range, somebody else's layer, too many layers or tiles) changes nothing.
+  /// Takes in a part of a tile whose envelope was accepted. An error (undecodable payload, other
+  /// cell size, tile out of range, somebody else's layer, too many layers, tiles or incomplete
+  /// tiles) changes nothing that is held.
   [[nodiscard]] Result<Applied> apply(const wire::TsdTile& sample);
 
   /// Holds a tile just published by ourselves.
@@ -66,9 +72,13 @@ class ReplicaStore {
 
  private:
   [[nodiscard]] Result<void> check_limits(const LayerKey& layer, TileIndex tile) const;
+  /// The tile once all of its parts are there.
+  [[nodiscard]] Result<std::optional<QuantisedTile>> join(const ChangedTile& tile,
+                                                          const wire::TsdTile& sample);
 
   GridGeometry geometry_;
   std::map<LayerKey, ReplicaLayer> layers_;
+  std::map<std::pair<LayerKey, TileIndex>, wire::TileParts> incomplete_;
   std::vector<ChangedTile> changed_;
 };
 

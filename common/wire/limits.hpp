@@ -9,7 +9,7 @@ inline constexpr std::size_t kMaxIdLength = 32;
 inline constexpr std::size_t kMaxMissionIdLength = 32;
 inline constexpr std::size_t kMaxSignature = 64;
 inline constexpr std::size_t kMaxScanBeams = 640;
-inline constexpr std::size_t kMaxTilePayload = 8192;
+inline constexpr std::size_t kMaxTilePart = 1000;
 inline constexpr std::size_t kMaxTilesPerRequest = 256;
 inline constexpr std::size_t kMaxMembers = 64;
 inline constexpr std::size_t kMaxCandidates = 16;
@@ -17,5 +17,9 @@ inline constexpr std::size_t kMaxReason = 256;
 inline constexpr std::size_t kMaxLayers = 64;
 inline constexpr std::size_t kMaxPeers = 64;
 inline constexpr std::size_t kMaxAlertText = 128;
+
+// A tile's payload, of all parts together.
+inline constexpr std::size_t kMaxTilePayload = 8192;
+inline constexpr std::size_t kMaxTileParts = (kMaxTilePayload + kMaxTilePart - 1) / kMaxTilePart;
 
 }  // namespace lifeline::wire

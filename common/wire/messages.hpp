@@ -59,14 +59,16 @@ struct HelmetScan {
   std::vector<std::uint16_t> ranges_cm;  ///< 0 = nothing known
 };
 
-/// lifeline/tsd_tile: the whole tile at a revision.
+/// lifeline/tsd_tile: a part of a tile at a revision; see tile_parts.hpp.
 struct TsdTile {
   Envelope envelope;
   LayerName layer;
   std::int32_t tile_x = 0;
   std::int32_t tile_y = 0;
+  std::uint8_t part = 0;              ///< from 0
+  std::uint8_t parts = 1;             ///< of this revision
   std::uint64_t revision = 0;         ///< from 1; grows with each publication of this tile
-  std::vector<std::uint8_t> payload;  ///< see tile_codec.hpp
+  std::vector<std::uint8_t> payload;  ///< this part of it
 };
 
 struct TileName {

@@ -17,7 +17,7 @@ namespace lifeline::wire {
   return std::tuple(m.agent_id);
 }
 [[nodiscard]] inline auto topic_key(const TsdTile& m) {
-  return std::tuple(m.layer.agent_id, m.layer.map_id, m.layer.floor, m.tile_x, m.tile_y);
+  return std::tuple(m.layer.agent_id, m.layer.map_id, m.layer.floor, m.tile_x, m.tile_y, m.part);
 }
 [[nodiscard]] inline auto topic_key(const TileRequest& m) {
   return std::tuple(m.requester_id);

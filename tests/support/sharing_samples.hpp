@@ -3,11 +3,15 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
 
+#include "common/base/check.hpp"
 #include "common/base/ids.hpp"
 #include "common/grid/tsd_cell.hpp"
+#include "common/sharing/replica_store.hpp"
 #include "common/wire/messages.hpp"
 #include "common/wire/tile_codec.hpp"
+#include "common/wire/tile_parts.hpp"
 
 namespace lifeline::test {
 
@@ -37,16 +41,50 @@ inline QuantisedTile random_tile(std::mt19937& random) {
   return tile;
 }
 
-inline wire::TsdTile tile_sample(const LayerKey& key, TileIndex tile, std::uint64_t revision,
-                                 const QuantisedTile& cells, const GridGeometry& geometry = {}) {
+/// A corner of known cells: fits into one part.
+inline QuantisedTile small_tile(std::mt19937& random) {
+  QuantisedTile tile = random_tile(random);
+  for (std::size_t i = 0; i < tile.size(); ++i) {
+    if (i % kTileSide >= 8 || i / kTileSide >= 8) tile[i] = {};
+  }
+  return tile;
+}
+
+/// All parts of a tile at a revision.
+inline std::vector<wire::TsdTile> tile_samples(const LayerKey& key, TileIndex tile,
+                                               std::uint64_t revision, const QuantisedTile& cells,
+                                               const GridGeometry& geometry = {}) {
   wire::TsdTile sample;
   sample.envelope = envelope(key.agent_id.text(), revision);
   sample.layer = {key.agent_id.text(), key.map_id.value, key.floor.value};
   sample.tile_x = tile.x;
   sample.tile_y = tile.y;
   sample.revision = revision;
-  sample.payload = wire::encode_tile(cells, geometry);
-  return sample;
+  const auto parts = wire::split_payload(wire::encode_tile(cells, geometry));
+  sample.parts = static_cast<std::uint8_t>(parts.size());
+  std::vector<wire::TsdTile> samples;
+  for (const auto& part : parts) {
+    sample.part = static_cast<std::uint8_t>(samples.size());
+    sample.payload = part;
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+/// A tile that fits into one part.
+inline wire::TsdTile tile_sample(const LayerKey& key, TileIndex tile, std::uint64_t revision,
+                                 const QuantisedTile& cells, const GridGeometry& geometry = {}) {
+  const auto samples = tile_samples(key, tile, revision, cells, geometry);
+  LIFELINE_CHECK(samples.size() == 1);
+  return samples.front();
+}
+
+/// Applies all parts; the last one's outcome.
+inline Result<sharing::Applied> apply(sharing::ReplicaStore& store,
+                                      const std::vector<wire::TsdTile>& samples) {
+  Result<sharing::Applied> outcome = sharing::Applied::older;
+  for (const auto& sample : samples) outcome = store.apply(sample);
+  return outcome;
 }
 
 }  // namespace lifeline::test

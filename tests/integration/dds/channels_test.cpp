@@ -90,12 +90,12 @@ TEST_F(Channel, tells_whether_anybody_reads) {
 TEST_F(Channel, refuses_a_message_beyond_its_bounds_and_goes_on) {
   const auto alpha = join(domain_, "alpha");
   const auto out = make_outbox<wire::TsdTile>(*alpha).value();
-  const auto put = out->put(probe::tile("alpha", 0, 1, 8193));
+  const auto put = out->put(probe::tile("alpha", 0, 1, 1001));
   ASSERT_FALSE(put);
   EXPECT_EQ(put.error().code, ErrorCode::bad_data);
   EXPECT_EQ(alpha->bytes_sent(), 0U);
-  EXPECT_TRUE(out->put(probe::tile("alpha", 0, 1, 8192)));
-  EXPECT_GT(alpha->bytes_sent(), 8192U);
+  EXPECT_TRUE(out->put(probe::tile("alpha", 0, 1, 1000)));
+  EXPECT_GT(alpha->bytes_sent(), 1000U);
 }
 
 TEST_F(Channel, hands_out_in_order_of_arrival) {
@@ -153,7 +153,7 @@ TEST_F(Channel, closes_while_samples_are_on_their_way) {
     const auto passing = make_inbox<wire::TsdTile>(*bravo).value();
     const bool matched = round % 2 == 1 || eventually([&] { return out->has_reader(); });
     ASSERT_TRUE(matched);
-    for (std::uint32_t i = 0; i < 40; ++i) ASSERT_TRUE(out->put(probe::tile("alpha", i, 1, 2000)));
+    for (std::uint32_t i = 0; i < 40; ++i) ASSERT_TRUE(out->put(probe::tile("alpha", i, 1, 1000)));
   }
   EXPECT_TRUE(eventually([&] { return !in->take().empty(); }));
 }
@@ -168,7 +168,7 @@ TEST_F(Channel, carries_two_ways_at_once) {
     std::uint64_t sent = 0, newest = 0;
     const auto end = steady_clock::now() + kPatience;
     while (steady_clock::now() < end && (sent < kRevisions || newest < kRevisions)) {
-      if (sent < kRevisions && !out->put(probe::tile(name, 0, ++sent, 1500))) return false;
+      if (sent < kRevisions && !out->put(probe::tile(name, 0, ++sent, 1000))) return false;
       participant->wait_for_data(milliseconds(1));
       for (const auto& tile : in->take()) {
         if (tile.envelope.sender_id != other || tile.payload != probe::payload(tile)) return false;

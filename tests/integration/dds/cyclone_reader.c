@@ -96,8 +96,8 @@ static void print_tile(const void* sample) {
   print_envelope(&tile->envelope);
   print_text("agent_id", tile->agent_id);
   printf("\"map_id\":%" PRIu32 ",\"floor\":%" PRId16 ",\"tile_x\":%" PRId32 ",\"tile_y\":%" PRId32
-         ",\"revision\":%" PRIu64 ",\"payload\":\"",
-         tile->map_id, tile->floor, tile->tile_x, tile->tile_y, tile->revision);
+         ",\"part\":%d,\"parts\":%d,\"revision\":%" PRIu64 ",\"payload\":\"",
+         tile->map_id, tile->floor, tile->tile_x, tile->tile_y, tile->part, tile->parts, tile->revision);
   for (uint32_t i = 0; i < tile->payload._length; ++i) printf("%02x", tile->payload._buffer[i]);
   puts("\"}");
 }

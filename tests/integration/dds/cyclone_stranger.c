@@ -3,8 +3,8 @@
  * A sender that does not keep the rules of idl/, on Cyclone DDS: writes one sample of KIND and, where
  * KIND breaks only that sample, a proper one after it; then stays until S seconds have passed.
  *
- * KIND: long_name (agent_id of 5,000 characters), oversized (payload of 100,000 octets),
- * long_payload (payload of 8,193 octets), bad_boolean (an octet of 2 where a boolean belongs),
+ * KIND: long_name (agent_id of 100 characters), oversized (payload of 100,000 octets),
+ * long_payload (payload of 1,001 octets), bad_boolean (an octet of 2 where a boolean belongs),
  * wide_enumerator (a role of 65,536), proper. */
 
 #include <stdint.h>
@@ -59,7 +59,7 @@ static dds_return_t write_tile(dds_entity_t writer, char* agent_id, int32_t tile
 static dds_return_t write_tiles(dds_entity_t participant, const char* what) {
   const dds_entity_t writer =
       open_writer(participant, &lifeline_msg_TsdTile_desc, "lifeline/tsd_tile");
-  static char long_name[5001];
+  static char long_name[101];
   memset(long_name, 'x', sizeof long_name - 1);
   dds_return_t result = 0;
   if (strcmp(what, "long_name") == 0) {
@@ -67,7 +67,7 @@ static dds_return_t write_tiles(dds_entity_t participant, const char* what) {
   } else if (strcmp(what, "oversized") == 0) {
     return write_tile(writer, name, 0, 100000); /* blocks the samples after it, by design */
   } else if (strcmp(what, "long_payload") == 0) {
-    result = write_tile(writer, name, 0, 8193);
+    result = write_tile(writer, name, 0, 1001);
   }
   return result < 0 ? result : write_tile(writer, name, 1, 10);
 }

@@ -30,7 +30,7 @@ TEST_F(LateJoiner, gets_the_newest_sample_of_each_of_100_keys_exactly_once) {
 }
 
 TEST_F(LateJoiner, gets_tiles_of_the_largest_size_whole) {
-  const auto writer = publisher({"--tiles", "12", "--size", "8192", "--epoch", "4"});
+  const auto writer = publisher({"--tiles", "12", "--size", "1000", "--epoch", "4"});
 
   const auto ended = probe({"collect", "--tiles", "12", "--epoch", "4"})->wait(kPatience);
 

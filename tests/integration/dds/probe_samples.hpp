@@ -40,6 +40,8 @@ inline wire::TsdTile tile(const std::string& sender, std::uint32_t index, std::u
   tile.layer = {sender, 7, -2};
   tile.tile_x = static_cast<std::int32_t>(index) % kTilesPerRow;
   tile.tile_y = static_cast<std::int32_t>(index) / kTilesPerRow;
+  tile.part = 1;
+  tile.parts = 3;
   tile.revision = revision;
   tile.payload = payload(index, revision, size);
   return tile;

@@ -68,7 +68,7 @@ std::vector<BoundedField> bounded_fields() {
       LIFELINE_FIELD(HelmetScan, kMaxIdLength, agent_id),
       LIFELINE_FIELD(HelmetScan, kMaxScanBeams, ranges_cm),
       LIFELINE_FIELD(TsdTile, kMaxIdLength, layer.agent_id),
-      LIFELINE_FIELD(TsdTile, kMaxTilePayload, payload),
+      LIFELINE_FIELD(TsdTile, kMaxTilePart, payload),
       LIFELINE_FIELD(TileRequest, kMaxIdLength, requester_id),
       LIFELINE_FIELD(TileRequest, kMaxIdLength, layer.agent_id),
       LIFELINE_FIELD(TileRequest, kMaxTilesPerRequest, tiles),
@@ -111,10 +111,10 @@ TEST(Bounds, no_field_may_be_longer) {
 
 TEST(Bounds, the_error_names_topic_field_size_and_bound) {
   TsdTile tile;
-  tile.payload.resize(8193);
+  tile.payload.resize(1001);
 
   EXPECT_EQ(text_of(check_bounds(tile)),
-            "lifeline/tsd_tile: payload has 8193 elements, at most 8192 may be sent");
+            "lifeline/tsd_tile: payload has 1001 elements, at most 1000 may be sent");
 }
 
 TEST(Bounds, a_zero_octet_in_a_text_is_refused) {

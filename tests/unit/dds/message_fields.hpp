@@ -34,7 +34,7 @@ template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_
   auto& [a, b, c, d, e, f, g, h] = m; return std::tie(a, b, c, d, e, f, g, h);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::TsdTile> {
-  auto& [a, b, c, d, e, f] = m; return std::tie(a, b, c, d, e, f);
+  auto& [a, b, c, d, e, f, g, h] = m; return std::tie(a, b, c, d, e, f, g, h);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::TileName> {
   auto& [a, b, c] = m; return std::tie(a, b, c);

@@ -135,7 +135,7 @@ TEST_F(QosProfiles, a_bad_value_is_refused) {
 }
 
 TEST_F(QosProfiles, a_number_that_is_none_is_refused) {
-  write_changed("transport_descriptor", "<maxMessageSize>1400", "<maxMessageSize>many");
+  write_changed("transport_descriptor", "<maxMessageSize>16000", "<maxMessageSize>many");
   EXPECT_THAT(reason(), ::testing::MatchesRegex(":[0-9]+: <maxMessageSize> getXMLUint XML_ERROR!"));
 }
 

@@ -13,6 +13,7 @@ namespace {
 using test::layer;
 using test::random_tile;
 using test::tile_sample;
+using test::tile_samples;
 
 constexpr std::int64_t kCellUm = 50'000;
 
@@ -50,7 +51,7 @@ FusedCell slow_fused_cell(CellIndex cell, const std::vector<FusedMember>& member
 class FusedMapTest : public testing::Test {
  protected:
   void hold(const LayerKey& key, TileIndex tile, std::uint64_t revision = 1) {
-    ASSERT_TRUE(store_.apply(tile_sample(key, tile, revision, random_tile(random_))));
+    ASSERT_TRUE(test::apply(store_, tile_samples(key, tile, revision, random_tile(random_))));
   }
   // Fuses whatever changed in the store.
   void update(FusedMap& map) {

@@ -163,7 +163,7 @@ TEST_F(HelmetSharingTest, AnUnchangedTileIsNotSentAgain) {
 TEST_F(HelmetSharingTest, SamplesOfAnotherMissionAreRefusedAndCounted) {
   auto alpha = make_helmet("alpha");
   auto writer = bus_.writer<wire::TsdTile>();
-  auto foreign = test::tile_sample(layer("zulu"), {0, 0}, 1, test::random_tile(random_));
+  auto foreign = test::tile_sample(layer("zulu"), {0, 0}, 1, test::small_tile(random_));
   foreign.envelope.mission_id = "another";
   ASSERT_TRUE(writer->put(foreign));
   run({alpha.get()});

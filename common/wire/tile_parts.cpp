@@ -1,0 +1,48 @@
+#include "common/wire/tile_parts.hpp"
+
+#include <algorithm>
+
+#include "common/base/check.hpp"
+#include "common/wire/limits.hpp"
+
+namespace lifeline::wire {
+
+std::vector<std::vector<std::uint8_t>> split_payload(std::span<const std::uint8_t> payload) {
+  LIFELINE_CHECK(!payload.empty() && payload.size() <= kMaxTilePayload);
+  std::vector<std::vector<std::uint8_t>> parts;
+  for (; !payload.empty(); payload = payload.subspan(parts.back().size())) {
+    const auto part = payload.first(std::min(payload.size(), kMaxTilePart));
+    parts.emplace_back(part.begin(), part.end());
+  }
+  return parts;
+}
+
+Result<std::optional<std::vector<std::uint8_t>>> TileParts::add(const TsdTile& sample) {
+  if (sample.part >= sample.parts || sample.parts > kMaxTileParts) {
+    return fail(ErrorCode::bad_data,
+                "tile refused: part {} (from 0) of {}; a tile has at most {} parts", sample.part,
+                sample.parts, kMaxTileParts);
+  }
+  if (sample.payload.size() > kMaxTilePart) {
+    return fail(ErrorCode::bad_data, "tile refused: a part of {} octets, at most {} are allowed",
+                sample.payload.size(), kMaxTilePart);
+  }
+  if (sample.revision < revision_) return std::nullopt;
+  if (sample.revision > revision_) {
+    revision_ = sample.revision;
+    parts_.assign(sample.parts, std::nullopt);
+  }
+  if (parts_.size() != sample.parts) {
+    return fail(ErrorCode::bad_data, "tile refused: revision {} comes in {} parts, and in {}",
+                sample.revision, parts_.size(), sample.parts);
+  }
+  parts_[sample.part] = sample.payload;
+  if (!std::all_of(parts_.begin(), parts_.end(), [](const auto& part) { return part; })) {
+    return std::nullopt;
+  }
+  std::vector<std::uint8_t> payload;
+  for (const auto& part : parts_) payload.insert(payload.end(), part->begin(), part->end());
+  return payload;
+}
+
+}  // namespace lifeline::wire
