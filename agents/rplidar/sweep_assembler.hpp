@@ -52,7 +52,8 @@ class SweepAssembler {
   [[nodiscard]] std::int64_t unwrap(const Sample& sample) const;
   [[nodiscard]] std::optional<sensing::RawScan> close_turn();
   [[nodiscard]] std::optional<sensing::RawScan> make_scan(std::span<const Placed> turn);
-  [[nodiscard]] std::vector<float> lay_out(std::span<const Placed> turn, std::int64_t beams);
+  [[nodiscard]] std::vector<float> lay_out(std::int64_t beams, double shift);
+  [[nodiscard]] static double best_shift(std::span<const Placed> turn, std::int64_t beams);
   [[nodiscard]] static SteadyTime start_of(std::span<const Placed> turn, double turn_s);
 
   SweepSettings settings_;
