@@ -21,7 +21,7 @@ struct SweepSettings {
 };
 
 /// Gathers samples into sweeps of one turn each, from the device's zero on, and lays each onto a
-/// regular grid of angles: docs/decisions/0404.
+/// regular grid of angles: docs/decisions/0401.
 ///
 /// A sweep has as many beams as the rotor's speed gives samples to a turn; each sample goes to the
 /// beam whose sector holds it, so that its angle is off by half a step at most. Where two fall into

@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/base/command_line.hpp"
 #include "common/base/stop_signal.hpp"
 #include "tests/support/rplidar/emulator.hpp"
 
@@ -79,10 +78,7 @@ int main(int argc, char** argv) {
   app.add_option("--baud", options.baud, "Rate at which it can be understood");
   app.add_option("--rotor", options.rotor_Hz, "Turns a second");
   app.add_flag("--fast", fast, "As fast as the other side reads");
-  int status = 0;
-  app.callback([&] {
-    options.real_time = !fast;
-    status = lifeline::test::emulate(options, link);
-  });
-  return lifeline::parse_command_line(app, argc, argv, status);
+  CLI11_PARSE(app, argc, argv);
+  options.real_time = !fast;
+  return lifeline::test::emulate(options, link);
 }
