@@ -74,7 +74,7 @@ class Saboteur {
         lidar_.plug_in();
         break;
       default:
-        const double most = random_() % 4 == 0 ? 1e-2 : 1e-3;
+        const double most = random_() % 4 == 0 ? 2e-3 : 5e-4;
         const auto rate = [&] { return most * static_cast<double>(random_() % 1000) / 1000.0; };
         lidar_.set_noise({.lost = rate(), .flipped = rate(), .inserted = rate()});
     }
