@@ -24,9 +24,10 @@ Result<std::unique_ptr<sensing::ScanSource>> open_kind(const SourceSpec& spec,
   if (spec.kind == "rosbag2") return open_rosbag2_source(spec);
   if (spec.kind == "rplidar") return rplidar::open_rplidar_source(spec, stop);
   if (spec.kind == "sim") return open_simulated_source(spec);
-  return fail(ErrorCode::wrong_use,
-              "source '{}:{}': unknown kind '{}'; there are: carmen, columns, rosbag2, rplidar, sim",
-              spec.kind, spec.target, spec.kind);
+  return fail(
+      ErrorCode::wrong_use,
+      "source '{}:{}': unknown kind '{}'; there are: carmen, columns, rosbag2, rplidar, sim",
+      spec.kind, spec.target, spec.kind);
 }
 
 }  // namespace
