@@ -11,7 +11,7 @@ void add_run_command(CLI::App& app, AgentRunOptions& options, int& status) {
   CLI::App* run = app.add_subcommand("run", "Map, and share the map, until stopped");
   run->add_option("--id", options.id, "This helmet's name, unique in the mission")->required();
   run->add_option("--source", options.source,
-                  "Where scans come from, e.g. sim:office or carmen:LOG.gz")
+                  "Where scans come from, e.g. rplidar:/dev/ttyUSB0, sim:office or carmen:LOG.gz")
       ->required();
   run->add_option("--config", options.config, "Configuration file (docs/parameters.md)");
   run->add_option("--report", options.report,
@@ -25,7 +25,8 @@ void add_run_command(CLI::App& app, AgentRunOptions& options, int& status) {
 }
 
 void add_slam_command(CLI::App& app, SlamCommandOptions& options, int& status) {
-  CLI::App* slam = app.add_subcommand("slam", "Map a source offline, as fast as it goes");
+  CLI::App* slam =
+      app.add_subcommand("slam", "Map a source offline, as fast as it goes; Ctrl-C ends it early");
   slam->add_option("--source", options.source,
                    "Where scans come from, e.g. sim:office or carmen:LOG.gz?prior=odom")
       ->required();
