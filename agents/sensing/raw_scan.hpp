@@ -15,6 +15,12 @@ struct Attitude {
   double yaw_rad = 0.0;    ///< about z, counter-clockwise, from an arbitrary zero
 };
 
+/// An attitude within a sweep.
+struct TimedAttitude {
+  Duration after_stamp{};  ///< the time from the sweep's stamp
+  Attitude attitude;
+};
+
 /// One sweep of a lidar as its driver or a recording gives it.
 struct RawScan {
   Timestamp stamp{};             ///< of the first beam, the sensor's clock
@@ -26,6 +32,9 @@ struct RawScan {
   std::vector<float> ranges_m;  ///< any value at all: 0, NaN and infinities mean "no reading"
 
   std::optional<Attitude> attitude;  ///< at the stamp; only differences of its yaw mean anything
+  /// How the head moved on within the sweep, in ascending order of time; empty where that is not
+  /// known. Only with `attitude`, and with the same zero of yaw.
+  std::vector<TimedAttitude> later_attitudes;
   std::optional<Pose2>
       T_odom_head;  ///< dead reckoning (wheels, legs), in a drifting frame of its own
   std::optional<Pose2> T_world_head_truth;  ///< for judging only: no algorithm reads it
