@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include <poll.h>
 #include <sys/eventfd.h>
 
 namespace lifeline::serial {
@@ -12,5 +13,11 @@ StopEvent::StopEvent(const std::stop_token& stop)
         // Fails only where the counter is full, and then it is readable all the same.
         [[maybe_unused]] const auto written = ::write(event_.get(), &one, sizeof one);
       }) {}
+
+void StopEvent::wait(Duration duration) const {
+  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(duration).count();
+  pollfd watched{event_.get(), POLLIN, 0};
+  (void)::poll(&watched, 1, static_cast<int>(ms));
+}
 
 }  // namespace lifeline::serial

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <stop_token>
 
 #include "agents/serial/file_descriptor.hpp"
+#include "common/base/time.hpp"
 
 namespace lifeline::serial {
 
@@ -12,6 +12,9 @@ namespace lifeline::serial {
 class StopEvent {
  public:
   explicit StopEvent(const std::stop_token& stop);
+
+  /// Waits that long, or until the request.
+  void wait(Duration duration) const;
 
   [[nodiscard]] bool requested() const { return stop_.stop_requested(); }
   /// -1, which poll() passes over, where the system has no descriptor left: a stop is then seen

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "agents/rplidar/rplidar_source.hpp"
 #include "agents/sources/carmen_source.hpp"
 #include "agents/sources/columns_source.hpp"
 #include "agents/sources/rosbag2_source.hpp"
@@ -11,13 +12,20 @@
 namespace lifeline::sources {
 namespace {
 
-Result<std::unique_ptr<sensing::ScanSource>> open_kind(const SourceSpec& spec) {
+/// A device gives its scans at its own pace.
+bool is_live(const SourceSpec& spec) {
+  return spec.kind == "rplidar";
+}
+
+Result<std::unique_ptr<sensing::ScanSource>> open_kind(const SourceSpec& spec,
+                                                       const std::stop_token& stop) {
   if (spec.kind == "carmen") return open_carmen_source(spec);
   if (spec.kind == "columns") return open_columns_source(spec);
   if (spec.kind == "rosbag2") return open_rosbag2_source(spec);
+  if (spec.kind == "rplidar") return rplidar::open_rplidar_source(spec, stop);
   if (spec.kind == "sim") return open_simulated_source(spec);
   return fail(ErrorCode::wrong_use,
-              "source '{}:{}': unknown kind '{}'; there are: carmen, columns, rosbag2, sim",
+              "source '{}:{}': unknown kind '{}'; there are: carmen, columns, rosbag2, rplidar, sim",
               spec.kind, spec.target, spec.kind);
 }
 
@@ -33,10 +41,13 @@ Result<std::unique_ptr<sensing::ScanSource>> open_source(std::string_view source
   if (const auto rate = spec->options.extract("rate"); !rate.empty()) {
     const auto parsed = parse_source_pace(rate.mapped());
     if (!parsed) return forward_error(parsed);
+    if (is_live(*spec) && *parsed != kRealTime) {
+      return fail(ErrorCode::wrong_use, "source '{}': a live lidar has no rate but real", source);
+    }
     pace = *parsed;
   }
-  auto opened = open_kind(*spec);
-  if (!opened || pace == kUnpaced) return opened;
+  auto opened = open_kind(*spec, stop);
+  if (!opened || pace == kUnpaced || is_live(*spec)) return opened;
   return std::make_unique<PacedSource>(*std::move(opened), pace, clock,
                                        stoppable_wait(std::move(stop)));
 }

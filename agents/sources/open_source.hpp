@@ -10,9 +10,10 @@
 
 namespace lifeline::sources {
 
-/// Opens a SOURCE: `carmen:LOG[.gz]`, `rosbag2:DIR` or `sim:PLAN`, with options after '?'
-/// (docs/sources.md). The option `rate=real|max|xN` is read here, for every kind; `default_pace`
-/// stands in where it is not given. A request on `stop` ends a paced source, also while it waits.
+/// Opens a SOURCE: `carmen:LOG[.gz]`, `columns:FILE`, `rosbag2:DIR`, `rplidar:DEVICE` or
+/// `sim:PLAN`, with options after '?' (docs/sources.md). The option `rate=real|max|xN` is read here,
+/// for every kind; `default_pace` stands in where it is not given. A live lidar runs at its own pace
+/// whatever the default. A request on `stop` ends a paced or live source, also while it waits.
 ///
 /// wrong_use for a kind that there is not (the text lists those there are) and for options that
 /// make no sense; the kind's own errors otherwise.

@@ -24,8 +24,8 @@ std::string refusal(std::string_view source, SourcePace pace = kUnpaced) {
 TEST(OpenSource, ListsTheKindsWhenItKnowsNotTheOneAskedFor) {
   EXPECT_EQ(
       refusal("ros2:/scan,/imu"),
-      "source 'ros2:/scan,/imu': unknown kind 'ros2'; there are: carmen, columns, rosbag2, sim");
-  EXPECT_THAT(refusal("rplidar:/dev/ttyUSB0"), HasSubstr("unknown kind 'rplidar'"));
+      "source 'ros2:/scan,/imu': unknown kind 'ros2'; there are: carmen, columns, rosbag2, "
+      "rplidar, sim");
   EXPECT_THAT(refusal("intel.log.gz"), HasSubstr("does not begin with a kind"));
 }
 
@@ -35,6 +35,15 @@ TEST(OpenSource, ReadsTheRateForEveryKind) {
   EXPECT_THAT(refusal("carmen:" + path + "?rate=fast"), HasSubstr("rate=fast is none of"));
   EXPECT_THAT(refusal("rosbag2:" + path + "?rate=fast"), HasSubstr("rate=fast is none of"));
   EXPECT_TRUE(open_source("carmen:" + path + "?rate=x2"));
+}
+
+TEST(OpenSource, ALiveLidarHasItsOwnPaceOnly) {
+  EXPECT_EQ(refusal("rplidar:/dev/none?rate=max"),
+            "source 'rplidar:/dev/none?rate=max': a live lidar has no rate but real");
+  const auto opened = open_source("rplidar:/dev/lifeline_none?rate=real");
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::not_found);
+  EXPECT_THAT(opened.error().text, HasSubstr("/dev/lifeline_none: no such device"));
 }
 
 TEST(OpenSource, PlaysWithoutWaitingByDefault) {
