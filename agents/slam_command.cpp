@@ -17,6 +17,7 @@
 #include "agents/sources/open_source.hpp"
 #include "common/base/log.hpp"
 #include "common/base/quantile.hpp"
+#include "common/base/stop_signal.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/map_file.hpp"
 #include "common/files/occupancy_image.hpp"
@@ -105,7 +106,8 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
     const slam::ScanFaults faults = check.next(**raw, motion);
     if (faults.frozen) scan.beams.clear();
     stages.predict = std::chrono::steady_clock::now() - started;
-    run.note(slam.step(scan, motion, faults.any()));
+    const bool doubtful = faults.any() || (*raw)->attitude_health != sensing::AttitudeHealth::good;
+    run.note(slam.step(scan, motion, doubtful));
     run.step_ms.push_back(milliseconds_since(started));
     run.stages.push_back(stages);
     run.bad_scans += faults.any() ? 1 : 0;
@@ -218,7 +220,15 @@ Result<void> run_slam(const SlamCommandOptions& options) {
   if (!config) return forward_error(config);
   set_up_log("slam", config->mission().log_level());
   const AgentSettings settings = to_settings(*config);
-  const auto source = sources::open_source(options.source);
+  // A recording may be broken off as ever; a sensor's walk ends in good order, with its files.
+  std::optional<StopOnSignal> stop;
+  if (sources::is_live_source(options.source)) {
+    watch_stop_signals();
+    stop.emplace();
+  }
+  const auto source =
+      sources::open_source_with_attitude(options.source, options.attitude, sources::kUnpaced,
+                                         stop ? stop->token() : std::stop_token());
   if (!source) return forward_error(source);
   slam::TsdSlam slam(settings.slam, settings.geometry);
   // The paper's matchers know no loops.

@@ -47,12 +47,12 @@ class HeldLidar {
     hold(Duration{0});
   }
 
-  /// Whether the attitude changes within the sweep.
-  [[nodiscard]] bool turns() const { return !attitude_.is_constant(); }
+  /// Whether rays stand in the heading of the stamp, however the head turned within the sweep.
+  [[nodiscard]] bool turn_undone() const { return attitude_.knows_turn(); }
 
   /// The ray of the beam that points `along` in the laser frame. Ask in the order of time.
   [[nodiscard]] Ray ray(const Eigen::Vector2d& along, Duration after_stamp) {
-    if (turns()) hold(after_stamp);
+    if (!attitude_.is_constant()) hold(after_stamp);
     return {moved_m_, R_head_laser_.leftCols<2>() * along, known_};
   }
 
@@ -126,7 +126,7 @@ Scan2 project_scan(const RawScan& raw, const ProjectionConfig& config) {
   scan.sweep_time = std::max(raw.sweep_time, Duration{0});
   if (!is_usable(raw, config) || raw.ranges_m.empty()) return scan;
   HeldLidar lidar(raw, config);
-  scan.turn_undone = lidar.turns();
+  scan.turn_undone = lidar.turn_undone();
   scan.beams.reserve(raw.ranges_m.size());
   const double step_s =
       to_seconds(scan.sweep_time) / std::max(static_cast<double>(raw.ranges_m.size()) - 1.0, 1.0);

@@ -15,7 +15,8 @@ Eigen::AngleAxisd about(double angle_rad, const Eigen::Vector3d& axis) {
 SweepAttitude::SweepAttitude(const RawScan& raw, double max_tilt_rad)
     : raw_(raw),
       max_tilt_rad_(max_tilt_rad),
-      constant_(!raw.attitude || raw.later_attitudes.empty() || raw.sweep_time <= Duration{0}) {
+      constant_(!raw.attitude || raw.later_attitudes.empty() || raw.sweep_time <= Duration{0}),
+      knows_yaw_(raw.attitude && std::isfinite(raw.attitude->yaw_rad)) {
   if (constant_) return;
   before_ = after_ = knot(0);
 }
@@ -25,7 +26,7 @@ SweepAttitude::Knot SweepAttitude::knot(std::size_t index) const {
   const TimedAttitude timed =
       index == 0 ? TimedAttitude{{}, *raw_.attitude} : raw_.later_attitudes[index - 1];
   const Attitude& attitude = timed.attitude;
-  const double turn_rad = attitude.yaw_rad - raw_.attitude->yaw_rad;
+  const double turn_rad = knows_yaw_ ? attitude.yaw_rad - raw_.attitude->yaw_rad : 0.0;
   // Not finite fails every comparison.
   if (!(std::abs(attitude.pitch_rad) <= max_tilt_rad_) ||
       !(std::abs(attitude.roll_rad) <= max_tilt_rad_) || !std::isfinite(turn_rad)) {

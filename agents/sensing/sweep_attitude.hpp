@@ -19,6 +19,10 @@ class SweepAttitude {
   /// Whether it is the same at all times.
   [[nodiscard]] bool is_constant() const { return constant_; }
 
+  /// Whether it also tells how the head turned. An attitude whose yaw is not finite tells of roll
+  /// and pitch alone.
+  [[nodiscard]] bool knows_turn() const { return !constant_ && knows_yaw_; }
+
   /// Ask in the order of time. Empty where the head was held too steeply, or an attitude is not
   /// finite.
   [[nodiscard]] std::optional<Eigen::Matrix3d> at(Duration after_stamp);
@@ -33,6 +37,7 @@ class SweepAttitude {
   const RawScan& raw_;
   double max_tilt_rad_;
   bool constant_;
+  bool knows_yaw_;
   std::size_t next_ = 0;  ///< into later_attitudes: the knot behind after_
   Knot before_, after_;
 };

@@ -2,9 +2,11 @@
 
 #include <utility>
 
+#include "agents/ahrs/ahrs_source.hpp"
 #include "agents/rplidar/rplidar_source.hpp"
 #include "agents/sources/carmen_source.hpp"
 #include "agents/sources/columns_source.hpp"
+#include "agents/sources/joined_source.hpp"
 #include "agents/sources/rosbag2_source.hpp"
 #include "agents/sources/simulator/simulated_source.hpp"
 #include "agents/sources/source_spec.hpp"
@@ -24,9 +26,10 @@ Result<std::unique_ptr<sensing::ScanSource>> open_kind(const SourceSpec& spec,
   if (spec.kind == "rosbag2") return open_rosbag2_source(spec);
   if (spec.kind == "rplidar") return rplidar::open_rplidar_source(spec, stop);
   if (spec.kind == "sim") return open_simulated_source(spec);
-  return fail(ErrorCode::wrong_use,
-              "source '{}:{}': unknown kind '{}'; there are: carmen, columns, rosbag2, rplidar, sim",
-              spec.kind, spec.target, spec.kind);
+  return fail(
+      ErrorCode::wrong_use,
+      "source '{}:{}': unknown kind '{}'; there are: carmen, columns, rosbag2, rplidar, sim",
+      spec.kind, spec.target, spec.kind);
 }
 
 }  // namespace
@@ -50,6 +53,32 @@ Result<std::unique_ptr<sensing::ScanSource>> open_source(std::string_view source
   if (!opened || pace == kUnpaced || is_live(*spec)) return opened;
   return std::make_unique<PacedSource>(*std::move(opened), pace, clock,
                                        stoppable_wait(std::move(stop)));
+}
+
+bool is_live_source(std::string_view source) {
+  const auto spec = parse_source_spec(source);
+  return spec && is_live(*spec);
+}
+
+Result<std::unique_ptr<sensing::ScanSource>> open_source_with_attitude(
+    std::string_view source, std::string_view attitude, SourcePace default_pace,
+    const std::stop_token& stop) {
+  if (attitude.empty()) return open_source(source, default_pace, stop);
+  const auto spec = parse_source_spec(attitude);
+  if (!spec) return forward_error(spec);
+  const auto options = ahrs::read_ahrs_options(*spec);
+  if (!options) return forward_error(options);
+  if (!is_live_source(source)) {
+    return fail(ErrorCode::wrong_use,
+                "attitude '{}': source '{}' is no live lidar, it brings its own attitude; leave "
+                "--attitude out",
+                attitude, source);
+  }
+  auto attitudes = ahrs::open_ahrs_source(*options, stop);
+  if (!attitudes) return forward_error(attitudes);
+  auto scans = open_source(source, default_pace, stop);
+  if (!scans) return scans;
+  return std::make_unique<JoinedSource>(*std::move(scans), *std::move(attitudes));
 }
 
 }  // namespace lifeline::sources

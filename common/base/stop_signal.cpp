@@ -1,6 +1,7 @@
 #include "common/base/stop_signal.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 
 namespace lifeline {
@@ -25,5 +26,13 @@ void watch_stop_signals() {
 bool stop_requested() {
   return g_stop.load();
 }
+
+StopOnSignal::StopOnSignal()
+    : watch_([stop = source_](const std::stop_token& over) mutable {
+        while (!over.stop_requested() && !lifeline::stop_requested()) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        if (lifeline::stop_requested()) stop.request_stop();
+      }) {}
 
 }  // namespace lifeline
