@@ -22,6 +22,7 @@ bool is_recent(const std::optional<SteadyTime>& when, SteadyTime now) {
 void AttitudeWatch::start(SteadyTime now) {
   started_ = now;
   last_.reset();
+  bytes_at_.reset();
   repeats_ = leaps_in_a_row_ = 0;
   rates_.reset();
 }
@@ -59,16 +60,11 @@ bool AttitudeWatch::leaps(const AhrsReading& reading, SteadyTime stamp) {
   return true;
 }
 
-void AttitudeWatch::note_damaged(SteadyTime now) {
-  ++counts_.damaged;
-  damaged_at_ = now;
-}
-
 AttitudeFault AttitudeWatch::fault(SteadyTime now) const {
   const SteadyTime heard = last_ ? last_->stamp : started_;
   if (now - heard > kSilentAfter) {
-    return damaged_at_ && now - *damaged_at_ < kSilentAfter ? AttitudeFault::garbage
-                                                            : AttitudeFault::silent;
+    return bytes_at_ && now - *bytes_at_ < kSilentAfter ? AttitudeFault::garbage
+                                                        : AttitudeFault::silent;
   }
   if (repeats_ >= kFrozenRepeats && last_->stamp - changed_ >= kFrozenAfter) {
     return AttitudeFault::frozen;

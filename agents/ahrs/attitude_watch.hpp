@@ -32,7 +32,9 @@ class AttitudeWatch {
   void start(SteadyTime now);
   /// A reading, measured at `stamp`; false where it must not be used (frozen, or a leap).
   [[nodiscard]] bool take(const AhrsReading& reading, SteadyTime stamp);
-  void note_damaged(SteadyTime now);
+  void note_damaged() { ++counts_.damaged; }
+  /// Bytes came, whatever they are.
+  void note_bytes(SteadyTime now) { bytes_at_ = now; }
 
   [[nodiscard]] AttitudeFault fault(SteadyTime now) const;
   [[nodiscard]] RateUnit rate_unit() const { return rates_.unit(); }
@@ -58,7 +60,7 @@ class AttitudeWatch {
   int repeats_ = 0;
   int leaps_in_a_row_ = 0;
   double interval_s_ = 0.0;  ///< usual, between readings
-  std::optional<SteadyTime> damaged_at_, gap_at_, leapt_at_;
+  std::optional<SteadyTime> bytes_at_, gap_at_, leapt_at_;
   RateCheck rates_;
   Counts counts_;
 };

@@ -10,6 +10,7 @@ void LineReceiver::start(SteadyTime now) {
 
 void LineReceiver::push(std::span<const std::uint8_t> bytes, SteadyTime arrived,
                         std::vector<Reading>& readings) {
+  if (!bytes.empty()) watch_.note_bytes(arrived);
   lines_.push(bytes, [&](std::string_view line, std::size_t behind) {
     // Several lines at once: those that came first came as much earlier as the others needed.
     take(line, arrived - from_seconds(byte_s_ * static_cast<double>(behind)), readings);
@@ -20,7 +21,7 @@ void LineReceiver::take(std::string_view line, SteadyTime ended, std::vector<Rea
   const DecodedLine decoded = decoder_->decode(line);
   if (decoded.kind == LineKind::other) return;
   if (decoded.kind == LineKind::damaged) {
-    watch_.note_damaged(ended);
+    watch_.note_damaged();
     last_damage_ = decoded.why;
     return;
   }
