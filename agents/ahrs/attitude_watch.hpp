@@ -30,8 +30,9 @@ class AttitudeWatch {
 
   /// The port was opened: from now on something should come.
   void start(SteadyTime now);
-  /// A reading, measured at `stamp`; false where it must not be used (frozen, or a leap).
-  [[nodiscard]] bool take(const AhrsReading& reading, SteadyTime stamp);
+  /// A reading, measured at `stamp` and there at `received` (a frozen sensor's own clock may
+  /// stand); false where it must not be used (frozen, or a leap).
+  [[nodiscard]] bool take(const AhrsReading& reading, SteadyTime stamp, SteadyTime received);
   void note_damaged() { ++counts_.damaged; }
   /// Bytes came, whatever they are.
   void note_bytes(SteadyTime now) { bytes_at_ = now; }
@@ -48,12 +49,12 @@ class AttitudeWatch {
   [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
-  [[nodiscard]] bool leaps(const AhrsReading& reading, SteadyTime stamp);
+  [[nodiscard]] bool leaps(const AhrsReading& reading, SteadyTime stamp, SteadyTime received);
 
   SteadyTime started_{};
   struct Last {
     AhrsReading reading;
-    SteadyTime stamp;
+    SteadyTime stamp, received;
   };
   std::optional<Last> last_;
   SteadyTime changed_{};  ///< since when the reading has been the same

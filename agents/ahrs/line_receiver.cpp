@@ -28,7 +28,7 @@ void LineReceiver::take(std::string_view line, SteadyTime ended, std::vector<Rea
   const double length_s = byte_s_ * static_cast<double>(line.size() + 2);  // and its end
   const SteadyTime stamp =
       clock_.to_steady(decoded.reading.device_time, ended - from_seconds(length_s));
-  if (watch_.take(decoded.reading, stamp)) readings.push_back({decoded.reading, stamp});
+  if (watch_.take(decoded.reading, stamp, ended)) readings.push_back({decoded.reading, stamp});
 }
 
 }  // namespace lifeline::ahrs

@@ -38,13 +38,15 @@ void RateCheck::judge() {
   const double agreement = rate2_ > 0.0 ? both_ / std::sqrt(turn2_ * rate2_) : 0.0;
   // Of a rate in deg per sample that is taken for deg/s.
   const double samples_per_s = seconds_ > 0.0 ? steps_ / seconds_ : 0.0;
-  unit_ = RateUnit::disagree;
+  RateUnit found = RateUnit::disagree;
   if (agreement > 0.8) {
-    if (is_near(ratio, 1.0)) unit_ = RateUnit::as_stated;
-    if (is_near(ratio, kDegree)) unit_ = RateUnit::degrees;
-    if (is_near(ratio, samples_per_s)) unit_ = RateUnit::per_sample;
-    if (is_near(ratio, 1.0 / kDegree)) unit_ = RateUnit::radians;
+    if (is_near(ratio, 1.0)) found = RateUnit::as_stated;
+    if (is_near(ratio, kDegree)) found = RateUnit::degrees;
+    if (is_near(ratio, samples_per_s)) found = RateUnit::per_sample;
+    if (is_near(ratio, 1.0 / kDegree)) found = RateUnit::radians;
   }
+  if (found == newest_) unit_ = found;
+  newest_ = found;
   turned_rad_ = both_ = turn2_ = rate2_ = seconds_ = 0.0;
   steps_ = 0;
 }

@@ -25,7 +25,8 @@ class RateCheck {
 
   /// One more reading, measured at `stamp`. Longer gaps than kLongest are passed over.
   void add(const AhrsReading& reading, SteadyTime stamp);
-  /// The last verdict; it is renewed with each kEnoughRad of turning.
+  /// The last verdict. It is renewed with each kEnoughRad of turning, and changes once the new one
+  /// came twice in a row: a damaged number decides nothing.
   [[nodiscard]] RateUnit unit() const { return unit_; }
   /// For a sensor that was restarted.
   void reset() { *this = {}; }
@@ -44,7 +45,7 @@ class RateCheck {
   double turn2_ = 0.0, rate2_ = 0.0;  // of their squares
   double seconds_ = 0.0;
   int steps_ = 0;
-  RateUnit unit_ = RateUnit::unknown;
+  RateUnit newest_ = RateUnit::unknown, unit_ = RateUnit::unknown;
 };
 
 }  // namespace lifeline::ahrs

@@ -159,14 +159,13 @@ TEST_P(EitherKind, AFrozenSensorIsReportedAndItsReadingsAreNotUsed) {
 
 TEST_P(EitherKind, ANoisyLineCostsReadingsAndHandsOnNothingWild) {
   AhrsEmulatorOptions noisy = options();
-  noisy.samples_per_s = 200.0;
   Line line(noisy);
   line.emulator->set_noise({.lost = 0.002, .flipped = 0.002, .inserted = 0.001});
   auto source = line.open();
   ASSERT_TRUE(source);
   int samples = 0, wild = 0;
   ASSERT_TRUE(read_until(
-      **source, [&] { return samples > 400; },
+      **source, [&] { return samples > 250; },
       [&](const sensing::OrientationSample& sample) {
         ++samples;
         const auto said = sources::to_attitude(sample.R_world_body);
@@ -216,17 +215,23 @@ TEST(AhrsSource, ALeapOfTheHeadingIsReportedBeforeAnybodyUsesIt) {
   auto source = line.open();
   ASSERT_TRUE(source);
   int samples = 0;
+  double last_yaw = 0.0;
   ASSERT_TRUE(read_until(
-      **source, [&] { return samples > 20; }, [&](const auto&) { ++samples; }));
-  line.emulator->set_yaw_offset(2.0);
-  double last_yaw = std::nan("");
+      **source, [&] { return samples > 20; },
+      [&](const sensing::OrientationSample& sample) {
+        ++samples;
+        last_yaw = sources::to_attitude(sample.R_world_body).yaw_rad;
+      }));
+  line.emulator->set_yaw_offset(2.5);
   bool leapt = false;
   ASSERT_TRUE(read_until(
       **source, [&] { return leapt; },
       [&](const sensing::OrientationSample& sample) {
         const double yaw = sources::to_attitude(sample.R_world_body).yaw_rad;
         leapt = std::abs(normalise_angle(yaw - last_yaw)) > 1.0;
-        if (leapt) EXPECT_EQ((*source)->health(), AttitudeHealth::degraded);
+        if (leapt) {
+          EXPECT_EQ((*source)->health(), AttitudeHealth::degraded);
+        }
         last_yaw = yaw;
       }));
 }

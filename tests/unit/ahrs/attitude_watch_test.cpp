@@ -26,7 +26,7 @@ class Sensor {
     int used = 0;
     for (const SteadyTime end = now + duration; now < end;) {
       now += kInterval;
-      used += watch.take(reading(), now) ? 1 : 0;
+      used += watch.take(reading(), now, now) ? 1 : 0;
     }
     return used;
   }
