@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t kQueuedScans = 8;
 constexpr Duration kHandOverInterval = std::chrono::milliseconds(100);
-constexpr Duration kSilentAfter = std::chrono::milliseconds(500);
+// With the wait for a scan, which lasts a hand-over's interval, within half a second.
+constexpr Duration kSilentAfter = std::chrono::milliseconds(400);
 
 }  // namespace
 

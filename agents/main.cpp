@@ -33,7 +33,8 @@ void add_run_command(CLI::App& app, AgentRunOptions& options, int& status) {
 }
 
 void add_slam_command(CLI::App& app, SlamCommandOptions& options, int& status) {
-  CLI::App* slam = app.add_subcommand("slam", "Map a source offline, as fast as it goes");
+  CLI::App* slam =
+      app.add_subcommand("slam", "Map a source offline, as fast as it goes; Ctrl-C ends it early");
   slam->add_option("--source", options.source,
                    "Where scans come from, e.g. sim:office or carmen:LOG.gz?prior=odom")
       ->required();

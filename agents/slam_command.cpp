@@ -95,7 +95,7 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
   slam::ScanCheck check;
   slam::StageTimes stages;
   slam.time_stages(&stages);
-  for (;;) {
+  while (!stop_requested()) {
     auto raw = source.next();
     if (!raw) return forward_error(raw);
     if (!*raw) break;
@@ -220,15 +220,9 @@ Result<void> run_slam(const SlamCommandOptions& options) {
   if (!config) return forward_error(config);
   set_up_log("slam", config->mission().log_level());
   const AgentSettings settings = to_settings(*config);
-  // A recording may be broken off as ever; a sensor's walk ends in good order, with its files.
-  std::optional<StopOnSignal> stop;
-  if (sources::is_live_source(options.source)) {
-    watch_stop_signals();
-    stop.emplace();
-  }
-  const auto source =
-      sources::open_source_with_attitude(options.source, options.attitude, sources::kUnpaced,
-                                         stop ? stop->token() : std::stop_token());
+  std::stop_source stop;
+  const auto source = sources::open_source_with_attitude(options.source, options.attitude,
+                                                         sources::kUnpaced, stop.get_token());
   if (!source) return forward_error(source);
   slam::TsdSlam slam(settings.slam, settings.geometry);
   // The paper's matchers know no loops.
@@ -237,6 +231,7 @@ Result<void> run_slam(const SlamCommandOptions& options) {
     closer.emplace(settings.slam.loops, settings.geometry, settings.slam.push,
                    settings.slam.tracker, settings.slam.direct, settings.slam.search);
   }
+  const std::jthread passing = pass_on_stop_signal(stop);
   const auto run = play(**source, settings.projection, slam, closer);
   if (!run) return forward_error(run);
   if (auto written = write_all(options, *config, slam.layer(), *run); !written) return written;
@@ -249,6 +244,7 @@ Result<void> run_slam(const SlamCommandOptions& options) {
 }  // namespace
 
 int run_slam_command(const SlamCommandOptions& options) {
+  watch_stop_signals();
   const auto done = run_slam(options);
   if (done) return 0;
   fmt::print(stderr, "lifeline-agent: {}\n", done.error().text);

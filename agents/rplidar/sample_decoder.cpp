@@ -1,6 +1,7 @@
 #include "agents/rplidar/sample_decoder.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/check.hpp"
 
@@ -64,8 +65,14 @@ void SampleDecoder::push(Bytes bytes, SteadyTime arrived, std::vector<Sample>& s
     if (!readings || leaps(*readings)) {
       counts_.gaps += torn_ ? 0 : 1;
       torn_ = true;
+      passed_first_ = false;
       ++counts_.skipped;
       ++at;
+      continue;
+    }
+    if (torn_ && type_ == AnswerType::standard_nodes && !std::exchange(passed_first_, true)) {
+      counts_.skipped += format_.bytes;
+      at += format_.bytes;
       continue;
     }
     at += format_.bytes;

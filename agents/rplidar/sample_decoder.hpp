@@ -46,7 +46,8 @@ struct DecoderCounts {
 /// need the next one anyway, and a frame that a lost or added byte has shifted does not pass by
 /// chance of its checksum. So a damaged byte costs the frame that it is in and the one before, and
 /// the stream is found again at the first whole pair. Standard nodes, which have no checksum, need
-/// kNodesInRow whole ones in a row; a flipped bit in their distance cannot be seen by anybody.
+/// kNodesInRow whole ones in a row, the first of which may be put together from two; a flipped bit
+/// in their distance cannot be seen by anybody.
 class SampleDecoder {
  public:
   /// `type` is one that frame_format() knows; `us_per_sample` > 0 as the mode says; `baud` of the
@@ -87,6 +88,7 @@ class SampleDecoder {
   std::vector<std::uint8_t> buffer_;
   std::vector<Mark> marks_;
   std::int32_t last_step_q16_ = 0;  ///< of the frame before
+  bool passed_first_ = false;       ///< since the stream was torn
   bool torn_ = true;                ///< the next frame does not follow the last decoded one
   DecoderCounts counts_;
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -21,7 +20,7 @@ constexpr double kEnoughSamples = 0.5;
 /// A sector of the turn and what was measured in it.
 struct Sector {
   float range_m = 0.0F;
-  std::int64_t off = std::numeric_limits<std::int64_t>::max();  ///< from its middle
+  double off = 1.0;  ///< from its middle, in sectors
 };
 
 double seconds_between(SteadyTime from, SteadyTime to) {
@@ -79,32 +78,46 @@ std::optional<sensing::RawScan> SweepAssembler::make_scan(std::span<const Placed
     return std::nullopt;
   }
   const auto beams = std::lround(samples_a_turn);
+  const double shift = best_shift(turn, beams);
   const double turn_s = 1e-6 * settings_.us_per_sample * samples_a_turn;
   const double beam_s = turn_s / static_cast<double>(beams);
   sensing::RawScan scan;
   const double step_rad = 2.0 * std::numbers::pi / static_cast<double>(beams);
   scan.angle_step_rad = settings_.inverted ? step_rad : -step_rad;
-  scan.first_angle_rad = settings_.yaw_rad + 0.5 * scan.angle_step_rad;
+  scan.first_angle_rad = settings_.yaw_rad + (0.5 + shift) * scan.angle_step_rad;
   scan.range_min_m = settings_.range_min_m;
   scan.range_max_m = settings_.range_max_m;
-  scan.ranges_m = lay_out(turn, beams);
+  scan.ranges_m = lay_out(beams, shift);
   scan.sweep_time = from_seconds(turn_s - beam_s);
-  const SteadyTime start = start_of(turn, turn_s) + from_seconds(0.5 * beam_s);
+  const SteadyTime start = start_of(turn, turn_s) + from_seconds((0.5 + shift) * beam_s);
   scan.stamp = Timestamp(start.time_since_epoch());
   return scan;
 }
 
-/// Each sample into the sector that holds its angle.
-std::vector<float> SweepAssembler::lay_out(std::span<const Placed> turn, std::int64_t beams) {
-  std::vector<Sector> sectors(static_cast<std::size_t>(beams));
+/// Where the sectors have to begin, in sectors from the device's zero (-0.5 to 0.5), so that the
+/// samples lie around their middles: then small unevenness puts no two into one.
+double SweepAssembler::best_shift(std::span<const Placed> turn, std::int64_t beams) {
+  double east = 0.0, north = 0.0;
   for (const Placed& placed : turn) {
+    const double phase = 2.0 * std::numbers::pi *
+                         static_cast<double>(placed.angle_q16 * beams % kTurn_q16) / kTurn_q16;
+    east += std::cos(phase);
+    north += std::sin(phase);
+  }
+  // The mean place within a sector, less its middle.
+  return std::atan2(-north, -east) / (2.0 * std::numbers::pi);
+}
+
+/// Each sample into the sector that holds its angle; the shift may bring in some of the next turn.
+std::vector<float> SweepAssembler::lay_out(std::int64_t beams, double shift) {
+  std::vector<Sector> sectors(static_cast<std::size_t>(beams));
+  for (const Placed& placed : samples_) {
     const std::uint32_t quarters = placed.sample.reading.distance_quarters;
-    if (quarters == 0) continue;
-    const std::int64_t index = placed.angle_q16 * beams / kTurn_q16;
+    const double place = static_cast<double>(placed.angle_q16 * beams) / kTurn_q16 - shift;
+    const double index = std::floor(place);
+    if (quarters == 0 || index < 0.0 || index >= static_cast<double>(beams)) continue;
     Sector& sector = sectors[static_cast<std::size_t>(index)];
-    // Twice the angle from the middle, in units that make it whole.
-    const std::int64_t off =
-        std::abs(2 * placed.angle_q16 * beams - (2 * index + 1) * std::int64_t{kTurn_q16});
+    const double off = std::abs(place - index - 0.5);
     crowded_out_ += sector.range_m > 0.0F ? 1 : 0;
     if (off < sector.off) sector = {static_cast<float>(quarters) / 4000.0F, off};
   }

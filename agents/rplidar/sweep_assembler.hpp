@@ -21,7 +21,7 @@ struct SweepSettings {
 };
 
 /// Gathers samples into sweeps of one turn each, from the device's zero on, and lays each onto a
-/// regular grid of angles: docs/decisions/0404.
+/// regular grid of angles: docs/decisions/0401.
 ///
 /// A sweep has as many beams as the rotor's speed gives samples to a turn; each sample goes to the
 /// beam whose sector holds it, so that its angle is off by half a step at most. Where two fall into
@@ -52,7 +52,8 @@ class SweepAssembler {
   [[nodiscard]] std::int64_t unwrap(const Sample& sample) const;
   [[nodiscard]] std::optional<sensing::RawScan> close_turn();
   [[nodiscard]] std::optional<sensing::RawScan> make_scan(std::span<const Placed> turn);
-  [[nodiscard]] std::vector<float> lay_out(std::span<const Placed> turn, std::int64_t beams);
+  [[nodiscard]] std::vector<float> lay_out(std::int64_t beams, double shift);
+  [[nodiscard]] static double best_shift(std::span<const Placed> turn, std::int64_t beams);
   [[nodiscard]] static SteadyTime start_of(std::span<const Placed> turn, double turn_s);
 
   SweepSettings settings_;

@@ -55,11 +55,6 @@ Result<std::unique_ptr<sensing::ScanSource>> open_source(std::string_view source
                                        stoppable_wait(std::move(stop)));
 }
 
-bool is_live_source(std::string_view source) {
-  const auto spec = parse_source_spec(source);
-  return spec && is_live(*spec);
-}
-
 Result<std::unique_ptr<sensing::ScanSource>> open_source_with_attitude(
     std::string_view source, std::string_view attitude, SourcePace default_pace,
     const std::stop_token& stop) {
@@ -68,7 +63,9 @@ Result<std::unique_ptr<sensing::ScanSource>> open_source_with_attitude(
   if (!spec) return forward_error(spec);
   const auto options = ahrs::read_ahrs_options(*spec);
   if (!options) return forward_error(options);
-  if (!is_live_source(source)) {
+  const auto scan_spec = parse_source_spec(source);
+  if (!scan_spec) return forward_error(scan_spec);
+  if (!is_live(*scan_spec)) {
     return fail(ErrorCode::wrong_use,
                 "attitude '{}': source '{}' is no live lidar, it brings its own attitude; leave "
                 "--attitude out",

@@ -28,8 +28,4 @@ namespace lifeline::sources {
     std::string_view source, std::string_view attitude, SourcePace default_pace = kUnpaced,
     const std::stop_token& stop = {});
 
-/// Whether a SOURCE is a sensor, which ends only when it is told to. False for one that makes no
-/// sense.
-[[nodiscard]] bool is_live_source(std::string_view source);
-
 }  // namespace lifeline::sources

@@ -2,7 +2,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
+#include <mutex>
+#include <utility>
 
 namespace lifeline {
 namespace {
@@ -27,12 +30,17 @@ bool stop_requested() {
   return g_stop.load();
 }
 
-StopOnSignal::StopOnSignal()
-    : watch_([stop = source_](const std::stop_token& over) mutable {
-        while (!over.stop_requested() && !lifeline::stop_requested()) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-        if (lifeline::stop_requested()) stop.request_stop();
-      }) {}
+std::jthread pass_on_stop_signal(std::stop_source stop) {
+  return std::jthread([stop = std::move(stop)](const std::stop_token& joined) mutable {
+    std::mutex mutex;
+    std::condition_variable_any never_notified;
+    std::unique_lock lock(mutex);
+    // A signal handler may wake nobody: it is looked for instead.
+    while (!joined.stop_requested() && !stop_requested()) {
+      never_notified.wait_for(lock, joined, std::chrono::milliseconds(20), [] { return false; });
+    }
+    if (stop_requested()) stop.request_stop();
+  });
+}
 
 }  // namespace lifeline

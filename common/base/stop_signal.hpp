@@ -12,15 +12,8 @@ void watch_stop_signals();
 /// Whether one of them came.
 [[nodiscard]] bool stop_requested();
 
-/// The same as a token, for what waits: requested at most 20 ms after the signal came.
-class StopOnSignal {
- public:
-  StopOnSignal();
-  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
-
- private:
-  std::stop_source source_;
-  std::jthread watch_;  // last: it requests the stop
-};
+/// Requests a stop of `stop` soon after one of them came, for what waits on a stop token. Ends when
+/// the thread is joined.
+[[nodiscard]] std::jthread pass_on_stop_signal(std::stop_source stop);
 
 }  // namespace lifeline
