@@ -1,5 +1,7 @@
 #include "agents/agent_settings.hpp"
 
+#include <numbers>
+
 #include "common/files/load_config.hpp"
 #include "idl/config.pb.h"
 
@@ -13,6 +15,21 @@ std::optional<slam::Matcher> parse_matcher(const std::string& name) {
   return std::nullopt;
 }
 
+sensing::ProjectionConfig to_projection(const proto::SensingConfig& sensing, double max_range_m) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  sensing::ProjectionConfig projection;
+  projection.max_range_m = max_range_m;
+  projection.sensor_height_m = sensing.lidar_height_m();
+  projection.ceiling_height_m = sensing.ceiling_height_m();
+  projection.height_margin_m = sensing.height_margin_m();
+  projection.tilt_margin_rad = sensing.tilt_margin_deg() * kDegree;
+  projection.mount.roll_rad = sensing.mount_roll_deg() * kDegree;
+  projection.mount.pitch_rad = sensing.mount_pitch_deg() * kDegree;
+  projection.mount.yaw_rad = sensing.mount_yaw_deg() * kDegree;
+  projection.mount.lever_body_m = {sensing.lever_x_m(), sensing.lever_y_m(), sensing.lever_z_m()};
+  return projection;
+}
+
 }  // namespace
 
 AgentSettings to_settings(const proto::AgentConfig& config) {
@@ -24,7 +41,7 @@ AgentSettings to_settings(const proto::AgentConfig& config) {
   settings.slam.min_model_points = static_cast<int>(slam.min_model_points());
   settings.slam.max_mean_error_m = slam.max_mean_error_m();
   settings.slam.gicp_max_iterations = static_cast<int>(slam.gicp_max_iterations());
-  settings.projection.max_range_m = slam.max_range_m();
+  settings.projection = to_projection(config.sensing(), slam.max_range_m());
   settings.publisher.budget_bit_s = config.sharing().budget_bit_s();
   settings.publisher.min_tile_interval = from_seconds(config.sharing().min_tile_interval_s());
   settings.match_working_map = config.sharing().match_working_map();

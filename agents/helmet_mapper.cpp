@@ -24,6 +24,20 @@ wire::AgentState state_of(const slam::SlamStep& step) {
   return step.trust_percent == 0 ? wire::AgentState::lost : wire::AgentState::weak;
 }
 
+wire::SensorHealth health_of(sensing::AttitudeHealth attitude) {
+  switch (attitude) {
+    case sensing::AttitudeHealth::good:
+      return wire::SensorHealth::good;
+    case sensing::AttitudeHealth::degraded:
+      return wire::SensorHealth::degraded;
+    case sensing::AttitudeHealth::silent:
+      return wire::SensorHealth::silent;
+    case sensing::AttitudeHealth::failed:
+      break;
+  }
+  return wire::SensorHealth::failed;
+}
+
 // Every n-th beam, so that a sweep fits into one sample; ranges up to 655 m, 0 = nothing known.
 void thin_out(const Scan2& scan, sharing::HelmetState& state) {
   state.ranges_cm.clear();
@@ -48,7 +62,8 @@ void HelmetMapper::step(const sensing::RawScan& raw) {
   const sensing::SensedMotion motion = motion_.next(raw);
   const slam::ScanFaults faults = check_.next(raw, motion);
   if (faults.frozen) scan.beams.clear();
-  const slam::SlamStep step = slam_.step(scan, motion, faults.any());
+  const bool doubtful = faults.any() || raw.attitude_health != sensing::AttitudeHealth::good;
+  const slam::SlamStep step = slam_.step(scan, motion, doubtful);
   step_ms_.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
   // Nobody closes loops in a running helmet yet (docs/decisions/0206).
   (void)slam_.take_keyframes();
@@ -66,6 +81,7 @@ void HelmetMapper::note_step(const sensing::RawScan& raw, const Scan2& scan,
   last_ = StampedPose{raw.stamp, step.T_map_head};
   if (raw.T_world_head_truth) truth_.push_back({raw.stamp, *raw.T_world_head_truth});
   state_.state = state_of(step);
+  state_.attitude = health_of(raw.attitude_health);
   state_.T_map_head = step.T_map_head;
   state_.trust_percent = static_cast<std::uint8_t>(std::clamp(step.trust_percent, 0, 100));
   ++state_.scans;

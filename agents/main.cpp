@@ -7,12 +7,20 @@
 namespace lifeline {
 namespace {
 
+void add_attitude_option(CLI::App& command, std::string& attitude) {
+  command.add_option(
+      "--attitude", attitude,
+      "Attitude sensor beside a live lidar, e.g. ahrs:/dev/ttyUSB1?kind=vectornav or "
+      "kind=ahrs8 (docs/sources.md)");
+}
+
 void add_run_command(CLI::App& app, AgentRunOptions& options, int& status) {
   CLI::App* run = app.add_subcommand("run", "Map, and share the map, until stopped");
   run->add_option("--id", options.id, "This helmet's name, unique in the mission")->required();
   run->add_option("--source", options.source,
                   "Where scans come from, e.g. rplidar:/dev/ttyUSB0, sim:office or carmen:LOG.gz")
       ->required();
+  add_attitude_option(*run, options.attitude);
   run->add_option("--config", options.config, "Configuration file (docs/parameters.md)");
   run->add_option("--report", options.report,
                   "Folder that takes map, trajectory and counters at the end");
@@ -30,6 +38,7 @@ void add_slam_command(CLI::App& app, SlamCommandOptions& options, int& status) {
   slam->add_option("--source", options.source,
                    "Where scans come from, e.g. sim:office or carmen:LOG.gz?prior=odom")
       ->required();
+  add_attitude_option(*slam, options.attitude);
   slam->add_option("--trajectory", options.trajectory,
                    "TUM file to write; NAME.truth.tum beside it where the source knows the truth");
   slam->add_option("--map", options.map, "Writes NAME.lifemap, NAME.pgm and NAME.yaml");

@@ -100,7 +100,8 @@ Result<void> run(const AgentRunOptions& options) {
     if (auto ready = files::prepare_report_folder(*options.report); !ready) return ready;
   }
   std::stop_source stop_source;
-  auto source = sources::open_source(options.source, sources::kRealTime, stop_source.get_token());
+  auto source = sources::open_source_with_attitude(options.source, options.attitude,
+                                                   sources::kRealTime, stop_source.get_token());
   if (!source) return forward_error(source);
   auto qos = dds::qos_file(options.qos, options.config, config->mission().qos_profiles());
   if (!qos) return forward_error(qos);

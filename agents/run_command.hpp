@@ -11,6 +11,7 @@ namespace lifeline {
 struct AgentRunOptions {
   std::string id;
   std::string source;
+  std::string attitude;                         ///< of a live attitude sensor; empty for none
   std::optional<std::filesystem::path> config;  ///< config/agent.yaml's schema
   std::optional<std::filesystem::path>
       report;                          ///< folder for ID.json, ID.tum, ID.truth.tum, ID.lifemap

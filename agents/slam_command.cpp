@@ -106,7 +106,8 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
     const slam::ScanFaults faults = check.next(**raw, motion);
     if (faults.frozen) scan.beams.clear();
     stages.predict = std::chrono::steady_clock::now() - started;
-    run.note(slam.step(scan, motion, faults.any()));
+    const bool doubtful = faults.any() || (*raw)->attitude_health != sensing::AttitudeHealth::good;
+    run.note(slam.step(scan, motion, doubtful));
     run.step_ms.push_back(milliseconds_since(started));
     run.stages.push_back(stages);
     run.bad_scans += faults.any() ? 1 : 0;
@@ -220,7 +221,8 @@ Result<void> run_slam(const SlamCommandOptions& options) {
   set_up_log("slam", config->mission().log_level());
   const AgentSettings settings = to_settings(*config);
   std::stop_source stop;
-  const auto source = sources::open_source(options.source, sources::kUnpaced, stop.get_token());
+  const auto source = sources::open_source_with_attitude(options.source, options.attitude,
+                                                         sources::kUnpaced, stop.get_token());
   if (!source) return forward_error(source);
   slam::TsdSlam slam(settings.slam, settings.geometry);
   // The paper's matchers know no loops.

@@ -9,6 +9,7 @@ namespace lifeline {
 /// What `lifeline-agent slam` was told.
 struct SlamCommandOptions {
   std::string source;
+  std::string attitude;                             ///< of a live attitude sensor; empty for none
   std::optional<std::filesystem::path> trajectory;  ///< TUM file; NAME.truth.tum beside it where
                                                     ///< the source knows the truth
   std::optional<std::filesystem::path> map;     ///< NAME of NAME.lifemap, NAME.pgm and NAME.yaml

@@ -23,11 +23,12 @@ layer(coordinator/merging ${values} common/wire common/sharing coordinator/match
 layer(agents ${values} common/wire common/sharing agents/sensing agents/slam agents/sharing)
 layer(coordinator ${values} common/wire common/sharing coordinator/matching coordinator/merging)
 # adapters: what touches the world
-set(adapters common/files common/dds agents/rplidar agents/serial agents/sources agents/sources/simulator)
+set(adapters common/files common/dds agents/ahrs agents/rplidar agents/serial agents/sources agents/sources/simulator)
 layer(common/files ${values} common/wire idl ${adapters})
 layer(common/dds ${values} common/wire ${adapters})
 layer(agents/serial common/base)
 layer(agents/rplidar ${values} agents/sensing ${adapters})
+layer(agents/ahrs ${values} agents/sensing ${adapters})
 layer(agents/sources ${values} agents/sensing idl ${adapters})
 layer(agents/sources/simulator ${values} agents/sensing idl ${adapters})
 

@@ -11,6 +11,7 @@
 #include "agents/rplidar/sample_decoder.hpp"
 #include "agents/rplidar/sweep_assembler.hpp"
 #include "common/base/log.hpp"
+#include "common/base/steady_stamp.hpp"
 
 namespace lifeline::rplidar {
 namespace {
@@ -55,8 +56,7 @@ class RplidarSource final : public sensing::ScanSource {
         stop_(stop),
         stop_event_(stop),
         device_(std::move(device)),
-        wall_minus_steady_(std::chrono::system_clock::now().time_since_epoch() -
-                           now().time_since_epoch()),
+        wall_minus_steady_(stamp_of(SteadyTime{}).time_since_epoch()),
         left_at_(now()) {}
 
   Result<std::optional<RawScan>> next() override {

@@ -15,6 +15,20 @@ struct Attitude {
   double yaw_rad = 0.0;    ///< about z, counter-clockwise, from an arbitrary zero
 };
 
+/// An attitude within a sweep.
+struct TimedAttitude {
+  Duration after_stamp{};  ///< the time from the sweep's stamp
+  Attitude attitude;
+};
+
+/// How a live attitude sensor is, the worse the later. A source that never had one is good.
+enum class AttitudeHealth {
+  good,
+  degraded,  ///< the attitude is old, or readings are missing: not to be relied on fully
+  silent,    ///< nothing comes
+  failed,    ///< unplugged, frozen, or nothing that can be read
+};
+
 /// One sweep of a lidar as its driver or a recording gives it.
 struct RawScan {
   Timestamp stamp{};             ///< of the first beam, the sensor's clock
@@ -25,7 +39,13 @@ struct RawScan {
   double range_max_m = 0.0;     ///< at or beyond: nothing was hit
   std::vector<float> ranges_m;  ///< any value at all: 0, NaN and infinities mean "no reading"
 
-  std::optional<Attitude> attitude;  ///< at the stamp; only differences of its yaw mean anything
+  /// At the stamp. Only differences of its yaw mean anything; not finite: unknown, unlike roll and
+  /// pitch.
+  std::optional<Attitude> attitude;
+  /// How the head moved on within the sweep, in ascending order of time; empty where that is not
+  /// known. Only with `attitude`, and with the same zero of yaw.
+  std::vector<TimedAttitude> later_attitudes;
+  AttitudeHealth attitude_health = AttitudeHealth::good;
   std::optional<Pose2>
       T_odom_head;  ///< dead reckoning (wheels, legs), in a drifting frame of its own
   std::optional<Pose2> T_world_head_truth;  ///< for judging only: no algorithm reads it

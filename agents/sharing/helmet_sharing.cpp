@@ -149,6 +149,7 @@ wire::AgentStatus HelmetSharing::status() const {
   status.role = wire::Role::helmet;
   status.state = state_.state;
   status.lidar = state_.lidar;
+  status.attitude = state_.attitude;
   status.duplicate_id_heard = contested_;
   status.map_id = config_.layer.map_id.value;
   status.floor = config_.layer.floor.value;

@@ -40,6 +40,7 @@ struct HelmetSharingConfig {
 struct HelmetState {
   wire::AgentState state = wire::AgentState::starting;
   wire::SensorHealth lidar = wire::SensorHealth::good;
+  wire::SensorHealth attitude = wire::SensorHealth::good;
   Pose2 T_map_head;
   double speed_m_s = 0.0;
   std::uint8_t trust_percent = 0;

@@ -15,7 +15,7 @@ void deskew(Scan2& scan, const Pose2& motion, Duration over) {
   if (scan.sweep_time <= Duration{0} || over <= Duration{0} || scan.beams.size() < 2) return;
   const double over_s = to_seconds(over);
   const double vx = motion.x_m / over_s, vy = motion.y_m / over_s;
-  const double turn_rad_s = motion.yaw_rad / over_s;
+  const double turn_rad_s = scan.turn_undone ? 0.0 : motion.yaw_rad / over_s;
   if (!(std::hypot(vx, vy) < kFastest_m_s) || !(std::abs(turn_rad_s) < kFastest_rad_s)) return;
   const double step_s = to_seconds(scan.sweep_time) / static_cast<double>(scan.beams.size() - 1);
   // The turn from beam to beam is always the same: no sine or cosine per beam.

@@ -2,9 +2,11 @@
 
 #include <utility>
 
+#include "agents/ahrs/ahrs_source.hpp"
 #include "agents/rplidar/rplidar_source.hpp"
 #include "agents/sources/carmen_source.hpp"
 #include "agents/sources/columns_source.hpp"
+#include "agents/sources/joined_source.hpp"
 #include "agents/sources/rosbag2_source.hpp"
 #include "agents/sources/simulator/simulated_source.hpp"
 #include "agents/sources/source_spec.hpp"
@@ -51,6 +53,29 @@ Result<std::unique_ptr<sensing::ScanSource>> open_source(std::string_view source
   if (!opened || pace == kUnpaced || is_live(*spec)) return opened;
   return std::make_unique<PacedSource>(*std::move(opened), pace, clock,
                                        stoppable_wait(std::move(stop)));
+}
+
+Result<std::unique_ptr<sensing::ScanSource>> open_source_with_attitude(
+    std::string_view source, std::string_view attitude, SourcePace default_pace,
+    const std::stop_token& stop) {
+  if (attitude.empty()) return open_source(source, default_pace, stop);
+  const auto spec = parse_source_spec(attitude);
+  if (!spec) return forward_error(spec);
+  const auto options = ahrs::read_ahrs_options(*spec);
+  if (!options) return forward_error(options);
+  const auto scan_spec = parse_source_spec(source);
+  if (!scan_spec) return forward_error(scan_spec);
+  if (!is_live(*scan_spec)) {
+    return fail(ErrorCode::wrong_use,
+                "attitude '{}': source '{}' is no live lidar, it brings its own attitude; leave "
+                "--attitude out",
+                attitude, source);
+  }
+  auto attitudes = ahrs::open_ahrs_source(*options, stop);
+  if (!attitudes) return forward_error(attitudes);
+  auto scans = open_source(source, default_pace, stop);
+  if (!scans) return scans;
+  return std::make_unique<JoinedSource>(*std::move(scans), *std::move(attitudes));
 }
 
 }  // namespace lifeline::sources

@@ -21,4 +21,11 @@ namespace lifeline::sources {
 [[nodiscard]] Result<std::unique_ptr<sensing::ScanSource>> open_source(
     std::string_view source, SourcePace default_pace = kUnpaced, std::stop_token stop = {});
 
+/// The same, with the attitudes of a live sensor: `ahrs:DEVICE?options` (docs/sources.md), or empty
+/// for none. Only live lidars take them (wrong_use for a recording or a simulation, which bring
+/// their own). A sensor that cannot be opened is an error; one that fails later is not.
+[[nodiscard]] Result<std::unique_ptr<sensing::ScanSource>> open_source_with_attitude(
+    std::string_view source, std::string_view attitude, SourcePace default_pace = kUnpaced,
+    const std::stop_token& stop = {});
+
 }  // namespace lifeline::sources

@@ -157,9 +157,7 @@ class BagSource final : public sensing::ScanSource {
     auto scan = decode_laser_scan(message.bytes, version_);
     if (!scan) return fail(scan.error().code, "{}: {}", message.place, scan.error().text);
     if (attitudes_) {
-      const auto attitude = attitudes_->at(scan->stamp);
-      if (!attitude) return forward_error(attitude);
-      scan->attitude = *attitude;
+      if (auto filled = attitudes_->fill(*scan); !filled) return forward_error(filled);
     }
     return *std::move(scan);
   }

@@ -110,6 +110,14 @@ Result<void> check_grid(const std::filesystem::path& file, const proto::GridConf
               file.string(), grid.truncation_m(), grid.cell_size_m(), 2.0 * grid.cell_size_m());
 }
 
+Result<void> check_heights(const std::filesystem::path& file, const proto::SensingConfig& sensing) {
+  if (sensing.ceiling_height_m() > sensing.lidar_height_m()) return {};
+  return fail(ErrorCode::wrong_use,
+              "{}: sensing.ceiling_height_m is {} and sensing.lidar_height_m is {}; give a ceiling "
+              "above the lidar",
+              file.string(), sensing.ceiling_height_m(), sensing.lidar_height_m());
+}
+
 template <typename Config>
 Result<Config> load_whole(const std::filesystem::path& file) {
   Config config;
@@ -153,7 +161,12 @@ Result<void> load_config(const std::filesystem::path& file, Message& config) {
 }
 
 Result<proto::AgentConfig> load_agent_config(const std::filesystem::path& file) {
-  return load_whole<proto::AgentConfig>(file);
+  auto config = load_whole<proto::AgentConfig>(file);
+  if (!config) return config;
+  if (const auto checked = check_heights(file, config->sensing()); !checked) {
+    return forward_error(checked);
+  }
+  return config;
 }
 
 Result<proto::CoordinatorConfig> load_coordinator_config(const std::filesystem::path& file) {

@@ -24,7 +24,7 @@ void fill_defaults(google::protobuf::Message& config);
                                        google::protobuf::Message& config);
 
 /// The same for a helmet's and the vehicle's whole configuration, with what concerns several values
-/// together: the truncation holds at least two cells.
+/// together: the truncation holds at least two cells, the ceiling is above the lidar.
 [[nodiscard]] Result<proto::AgentConfig> load_agent_config(const std::filesystem::path& file);
 [[nodiscard]] Result<proto::CoordinatorConfig> load_coordinator_config(
     const std::filesystem::path& file);

@@ -29,6 +29,7 @@ struct Scan2 {
   Duration sweep_time{};     ///< from first to last beam, 0 = all at once
   std::vector<Beam2> beams;  ///< in the order of the sweep
   bool full_circle = false;  ///< the last beam is a neighbour of the first
+  bool turn_undone = false;  ///< beams already stand in the heading of the stamp, all of them
 
   [[nodiscard]] std::size_t hits() const {
     std::size_t count = 0;

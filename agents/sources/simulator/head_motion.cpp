@@ -14,7 +14,8 @@ constexpr double kNoseDownRad = 2.0 * kDegree;  ///< people look at where they w
 
 }  // namespace
 
-HeadMotion::HeadMotion(std::uint64_t seed) {
+HeadMotion::HeadMotion(std::uint64_t seed, Style style)
+    : nose_down_rad_(style == Style::natural ? kNoseDownRad : 0.0) {
   Draw draw(seed);
   const auto swing = [&](double amplitude_deg, double shortest_s, double longest_s) {
     const double period_s = draw.between(shortest_s, longest_s);
@@ -26,6 +27,11 @@ HeadMotion::HeadMotion(std::uint64_t seed) {
   look_ = {swing(5.0, 5.0, 6.5), swing(3.0, 10.0, 13.0)};
   lean_ = swing(2.5, 4.0, 5.5);
   glance_ = {swing(10.0, 5.0, 6.0), swing(6.0, 3.1, 3.8)};
+  if (style == Style::natural) return;
+  const double step_deg = 1.5;  // what nod_ and stride_ add
+  look_ = {swing(kNoddingPitchDeg - step_deg, 2.6, 3.4), Swing{0.0, 1.0, 0.0}};
+  lean_ = swing(kNoddingRollDeg - step_deg, 3.6, 4.8);
+  glance_ = {Swing{0.0, 1.0, 0.0}, Swing{0.0, 1.0, 0.0}};
 }
 
 double HeadMotion::Swing::at(double t_s) const {
@@ -34,7 +40,7 @@ double HeadMotion::Swing::at(double t_s) const {
 
 HeadMotion::Lean HeadMotion::at(double t_s, double pace) const {
   return {.roll_rad = pace * stride_.at(t_s) + lean_.at(t_s),
-          .pitch_rad = kNoseDownRad + pace * nod_.at(t_s) + look_[0].at(t_s) + look_[1].at(t_s),
+          .pitch_rad = nose_down_rad_ + pace * nod_.at(t_s) + look_[0].at(t_s) + look_[1].at(t_s),
           .yaw_rad = glance_[0].at(t_s) + glance_[1].at(t_s)};
 }
 

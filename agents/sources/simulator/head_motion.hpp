@@ -26,11 +26,18 @@ struct HeadPose {
 /// fit into each other: the same seed gives the same motion.
 class HeadMotion {
  public:
-  /// Nothing is exceeded.
+  /// As people move it; or nodding and rolling hard all the time, to the limits, and looking
+  /// straight ahead.
+  enum class Style { natural, nodding };
+
+  /// Nothing is exceeded; natural.
   static constexpr double kMostPitchDeg = 12.0;
   static constexpr double kMostRollDeg = 5.0;
   static constexpr double kMostYawDeg = 16.0;
   static constexpr double kMostYawRateDegS = 25.0;
+  /// The same of a nodding head: reached, never exceeded. It does not yaw.
+  static constexpr double kNoddingPitchDeg = 25.0;
+  static constexpr double kNoddingRollDeg = 10.0;
 
   /// Against the body.
   struct Lean {
@@ -39,7 +46,7 @@ class HeadMotion {
     double yaw_rad = 0.0;
   };
 
-  explicit HeadMotion(std::uint64_t seed);
+  explicit HeadMotion(std::uint64_t seed, Style style = Style::natural);
 
   /// At `t_s` seconds; `pace` in [0, 1] is the share of full walking speed: steps shake the head
   /// only of someone who walks.
@@ -54,6 +61,7 @@ class HeadMotion {
   Swing nod_, stride_;  // with the steps
   std::array<Swing, 2> look_, glance_;
   Swing lean_;
+  double nose_down_rad_;  ///< on average
 };
 
 }  // namespace lifeline::sources

@@ -25,6 +25,19 @@ std::uint64_t sensor_seed(const WalkerNumber& number, std::uint64_t sensor) {
   return stir(stir(number.seed, static_cast<std::uint64_t>(number.walker)), sensor);
 }
 
+/// How often the attitude sensor speaks within a sweep.
+constexpr double kAhrsIntervalS = 0.01;
+
+/// What the attitude sensor says a moment after it said `attitude`. A moment's change it tells far
+/// better than the attitude: its error stays.
+sensing::Attitude moved(const sensing::Attitude& attitude, const HeadPose& from,
+                        const HeadPose& to) {
+  return {.roll_rad = attitude.roll_rad + to.roll_rad - from.roll_rad,
+          .pitch_rad = attitude.pitch_rad + to.pitch_rad - from.pitch_rad,
+          .yaw_rad = normalise_angle(attitude.yaw_rad + to.T_world_head.yaw_rad -
+                                     from.T_world_head.yaw_rad)};
+}
+
 /// The doorways that doors hang in.
 std::vector<Doorway> doorways_of(const FloorPlan& plan, const FreeSpace& space, Doors::When when) {
   if (when == Doors::When::never) return {};
@@ -50,14 +63,25 @@ class SimulatedSource final : public sensing::ScanSource {
     }
     const HeadPose head = walk_.head_at(t_s);
     doors_.advance(t_s, head.T_world_head.translation());
-    sensing::RawScan scan = lidar_.sweep(
-        scene_, [this](double at_s) { return walk_.head_at(at_s); }, t_s, doors_.closed());
+    std::vector<std::pair<double, HeadPose>> later;  // heads of the sweep, 100 a second
+    const auto head_at = [&](double at_s) {
+      const HeadPose now = walk_.head_at(at_s);
+      if (at_s >= (later.empty() ? t_s : later.back().first) + kAhrsIntervalS) {
+        later.emplace_back(at_s, now);
+      }
+      return now;
+    };
+    sensing::RawScan scan = lidar_.sweep(scene_, head_at, t_s, doors_.closed());
     scan.stamp = kStart + from_seconds(t_s);
     if (options_.ahrs) {
       const double dt_s = sweeps_ == 0 ? 0.0 : 1.0 / options_.lidar.turns_per_s;
-      scan.attitude = options_.head == Walk::Head::natural
-                          ? ahrs_.measure_leaning(head, dt_s)
-                          : ahrs_.measure(head.T_world_head.yaw_rad, dt_s);
+      scan.attitude = options_.head == Walk::Head::still
+                          ? ahrs_.measure(head.T_world_head.yaw_rad, dt_s)
+                          : ahrs_.measure_leaning(head, dt_s);
+      for (const auto& [at_s, now] : later) {
+        scan.later_attitudes.push_back(
+            {from_seconds(at_s - t_s), moved(*scan.attitude, head, now)});
+      }
     }
     ++sweeps_;
     return std::optional(std::move(scan));

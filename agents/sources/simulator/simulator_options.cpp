@@ -45,6 +45,13 @@ void read_doors(const SourceSpec& spec, Reader& reader, Doors::When& doors) {
   if (*when == "beside") doors = Doors::When::beside;
 }
 
+void read_head(const SourceSpec& spec, Reader& reader, Walk::Head& head) {
+  const auto how = spec.choice("head", "still", {"still", "natural", "nodding"});
+  if (!reader.keep(how)) return;
+  if (*how == "natural") head = Walk::Head::natural;
+  if (*how == "nodding") head = Walk::Head::nodding;
+}
+
 }  // namespace
 
 Result<SimulatorOptions> read_simulator_options(const SourceSpec& spec) {
@@ -71,9 +78,7 @@ Result<SimulatorOptions> read_simulator_options(const SourceSpec& spec) {
   reader.number("dropout", options.lidar.dropout_share, 0.0, 1.0);
   reader.either("sweep", options.lidar.takes_time, "off", "on");
   reader.either("prior", options.ahrs, "none", "ahrs");
-  bool natural = false;
-  reader.either("head", natural, "still", "natural");
-  if (natural) options.head = Walk::Head::natural;
+  read_head(spec, reader, options.head);
   reader.number("ceiling", options.lidar.ceiling_m, 2.0, 50.0);
   read_doors(spec, reader, options.doors);
   if (spec.options.contains("duration")) {

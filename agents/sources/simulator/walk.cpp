@@ -35,8 +35,10 @@ Walk::Walk(const FreeSpace& space, const WalkerNumber& number, Head head)
       cruise_m_s_(draw_.between(1.0, WalkLimits::kSpeedMs)),
       heading_rad_(draw_.between(-kPi, kPi)) {
   begin_round();
-  if (head == Head::natural) {
-    motion_.emplace(stir(stir(number.seed, 5), static_cast<std::uint64_t>(number.walker)));
+  if (head != Head::still) {
+    motion_.emplace(
+        stir(stir(number.seed, 5), static_cast<std::uint64_t>(number.walker)),
+        head == Head::natural ? HeadMotion::Style::natural : HeadMotion::Style::nodding);
   }
   before_ = now_ = this->head();
 }

@@ -24,8 +24,9 @@ struct WalkLimits {
 /// of the head. The same numbers give the same walk.
 class Walk {
  public:
-  /// How the head is held: level and with the body's slow sways alone, or as people do.
-  enum class Head { still, natural };
+  /// How the head is held: level and with the body's slow sways alone, or as people do, or nodding
+  /// and rolling hard.
+  enum class Head { still, natural, nodding };
 
   /// `space` has to outlive the walk. The way is the same however the head is held.
   Walk(const FreeSpace& space, const WalkerNumber& number, Head head = Head::still);

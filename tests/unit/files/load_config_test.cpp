@@ -39,6 +39,16 @@ class LoadConfig : public ::testing::Test {
   ErrorCode code_ = ErrorCode::unavailable;
 };
 
+TEST_F(LoadConfig, ACeilingBelowTheLidarIsRefused) {
+  const auto file =
+      folder_.write("a.yaml", "sensing: {lidar_height_m: 2.5, ceiling_height_m: 2.4}");
+  const auto loaded = load_agent_config(file);
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().code, ErrorCode::wrong_use);
+  EXPECT_THAT(loaded.error().text,
+              HasSubstr("sensing.ceiling_height_m is 2.4 and sensing.lidar_height_m is 2.5"));
+}
+
 TEST_F(LoadConfig, DefaultsNeedNoFile) {
   fill_defaults(config_);
   EXPECT_EQ(config_.mission().mission_id(), "mission");
@@ -82,7 +92,8 @@ TEST_F(LoadConfig, ReportsEveryFaultAtOnceWithItsPlace) {
           "a.yaml:6:17: grid.truncation_m is 20; give a number from 0.02 to 2",
           "a.yaml:7:7: slam must hold keys with values; give: matcher, max_range_m, "
           "min_model_points, max_mean_error_m, gicp_max_iterations",
-          "a.yaml:8:1: unknown key colour; known here: mission, grid, slam, sharing, floor",
+          "a.yaml:8:1: unknown key colour; known here: mission, grid, slam, sharing, floor, "
+          "sensing",
           "a.yaml:10:1: floor stands here again, first on line 9; keep one"));
   EXPECT_EQ(code_, ErrorCode::wrong_use);
 }

@@ -30,6 +30,23 @@ TEST(HeadMotion, KeepsItsLimits) {
   }
 }
 
+TEST(HeadMotion, ANoddingHeadReachesItsLimitsAndKeepsThem) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const HeadMotion motion(seed, HeadMotion::Style::nodding);
+    double most_pitch_rad = 0.0, most_roll_rad = 0.0;
+    for (double t = 0.0; t < 120.0; t += 0.01) {
+      const auto lean = motion.at(t, 1.0);
+      most_pitch_rad = std::max(most_pitch_rad, std::abs(lean.pitch_rad));
+      most_roll_rad = std::max(most_roll_rad, std::abs(lean.roll_rad));
+      EXPECT_EQ(lean.yaw_rad, 0.0);
+    }
+    EXPECT_LE(most_pitch_rad, HeadMotion::kNoddingPitchDeg * kDegree + 1e-12);
+    EXPECT_LE(most_roll_rad, HeadMotion::kNoddingRollDeg * kDegree + 1e-12);
+    EXPECT_GT(most_pitch_rad, (HeadMotion::kNoddingPitchDeg - 0.5) * kDegree);
+    EXPECT_GT(most_roll_rad, (HeadMotion::kNoddingRollDeg - 0.5) * kDegree);
+  }
+}
+
 TEST(HeadMotion, StepsShakeOnlySomeoneWhoWalks) {
   // What is quicker than a second: the second difference over a quarter of a second.
   const HeadMotion motion(7);

@@ -126,7 +126,8 @@ std::vector<double> hits_off_walls(const std::string& source,
   return off;
 }
 
-constexpr sensing::ProjectionConfig kHeights{.sensor_height_m = 1.7, .ceiling_height_m = 2.7};
+/// A helmet's own defaults: the simulated head agrees with them.
+const sensing::ProjectionConfig kHeights;
 
 TEST(SimulatedSource, WhatANoddingHeadSeesLiesOnTheWallsAfterProjection) {
   const auto off = hits_off_walls(
@@ -152,6 +153,25 @@ TEST(SimulatedSource, ANoddingHeadMeetsFloorAndCeilingWithinReach) {
   }
   EXPECT_EQ(level_short, 0);
   EXPECT_GT(leaning_short, 50);
+}
+
+TEST(SimulatedSource, ASweepOfANoddingHeadLiesOnTheWallsOnceItsOwnMotionIsUndone) {
+  // Standing still at the start: the second in which nobody walks yet.
+  const std::string source =
+      "sim:office?head=nodding&sweep=on&duration=1&beams=120&noise=0&dropout=0";
+  const auto off = hits_off_walls(source, kHeights);
+  ASSERT_GT(off.size(), 500U);
+  EXPECT_LT(quantile(off, 0.5), 0.015);
+  EXPECT_LT(quantile(off, 0.99), 0.1);  // 0.2 deg of tilt noise, at 25 deg
+  std::size_t knots = 0;
+  for (const auto& scan : support::scans_of(source)) knots += scan.later_attitudes.size();
+  EXPECT_EQ(knots, 90U);
+}
+
+TEST(SimulatedSource, WithoutSweepsTheAttitudeIsOneForTheWholeScan) {
+  for (const auto& scan : support::scans_of("sim:office?head=nodding&duration=1&beams=8")) {
+    EXPECT_TRUE(scan.later_attitudes.empty());
+  }
 }
 
 TEST(SimulatedSource, TheHeadsAttitudeIsLevelUnlessItMoves) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -70,6 +71,90 @@ TEST(HeadProjection, PitchShortensTheBeamAheadByItsCosine) {
   const Scan2 scan = project_scan(raw, tall_building());
   EXPECT_NEAR(scan.beams[0].range_m, 2.0 * std::cos(0.3), 1e-6);  // Eq. 14
   EXPECT_NEAR(scan.beams[1].range_m, 2.0, 1e-6);                  // the axis of the nod
+}
+
+TEST(HeadProjection, PitchAloneStraightAheadIsThePapersFormula) {
+  std::mt19937 random(14);
+  std::uniform_real_distribution<double> angle(-0.9, 0.9), range(0.3, 12.0);
+  ProjectionConfig config;
+  config.height_margin_m = config.tilt_margin_rad = 0.0;
+  const double h1 = config.sensor_height_m, hc = config.ceiling_height_m;
+  int valid = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double phi = angle(random);  // looking up is positive
+    const float r = static_cast<float>(range(random));
+    RawScan raw = raw_scan({r}, 0.0, 0.01);
+    raw.attitude = Attitude{0.0, -phi, 0.0};
+    // Eq. 14 with the sign that its lower bound needs: looking down is negative.
+    const double lowest = -std::asin(std::min(h1 / r, 1.0));
+    const double highest = std::asin(std::min((hc - h1) / r, 1.0));
+    const Beam2 beam = project_scan(raw, config).beams.at(0);
+    if (std::min(std::abs(phi - lowest), std::abs(phi - highest)) < 1e-9) continue;
+    ASSERT_EQ(beam.kind == BeamKind::hit, lowest < phi && phi < highest) << phi << ' ' << r;
+    if (beam.kind != BeamKind::hit) continue;
+    EXPECT_NEAR(beam.range_m, r * std::cos(phi), 1e-6);
+    ++valid;
+  }
+  EXPECT_GT(valid, 5000);
+  EXPECT_LT(valid, 15000);
+}
+
+TEST(HeadProjection, ALidarMountedAslantIsStraightenedByItsMount) {
+  // Nose down by 10 deg on a head that looks up by 10 deg: level in space.
+  RawScan raw = raw_scan({20.0F}, 0.0, 0.01);
+  raw.attitude = Attitude{0.0, -kPi / 18.0, 0.0};
+  ProjectionConfig config;
+  config.mount.pitch_rad = kPi / 18.0;
+  const Scan2 scan = project_scan(raw, config);
+  ASSERT_EQ(scan.beams[0].kind, BeamKind::hit);
+  EXPECT_NEAR(scan.beams[0].range_m, 20.0, 1e-5);
+}
+
+TEST(HeadProjection, ANodAboutTheNeckMovesTheLidarForwardAndDown) {
+  RawScan raw = raw_scan({2.0F}, 0.0, 0.01);
+  raw.attitude = Attitude{0.0, 0.4, 0.0};
+  ProjectionConfig config = tall_building();
+  config.mount.lever_body_m = {0.0, 0.0, 0.3};
+  const Scan2 scan = project_scan(raw, config);
+  EXPECT_NEAR(scan.beams[0].x_m, 2.0 * std::cos(0.4) + 0.3 * std::sin(0.4), 1e-6);
+  config.sensor_height_m = 2.0 * std::sin(0.4) + 0.3 * (1.0 - std::cos(0.4)) + 0.001;
+  config.height_margin_m = config.tilt_margin_rad = 0.0;
+  EXPECT_EQ(project_scan(raw, config).beams[0].kind, BeamKind::hit);
+  config.sensor_height_m -= 0.002;
+  EXPECT_EQ(project_scan(raw, config).beams[0].kind, BeamKind::invalid);
+}
+
+TEST(HeadProjection, TheMarginGrowsWithTheRange) {
+  RawScan raw = raw_scan({10.0F, 10.0F}, 0.0, 1e-9);
+  ProjectionConfig config;
+  config.height_margin_m = 0.1;
+  config.tilt_margin_rad = 0.02;  // 0.2 m at 10 m
+  const auto ends_at_height = [&](double height_m) {
+    raw.attitude = Attitude{0.0, std::asin((config.sensor_height_m - height_m) / 10.0), 0.0};
+    return project_scan(raw, config).beams[0].kind;
+  };
+  EXPECT_EQ(ends_at_height(0.31), BeamKind::hit);
+  EXPECT_EQ(ends_at_height(0.29), BeamKind::invalid);
+  EXPECT_EQ(ends_at_height(config.ceiling_height_m - 0.31), BeamKind::hit);
+  EXPECT_EQ(ends_at_height(config.ceiling_height_m - 0.29), BeamKind::invalid);
+}
+
+TEST(HeadProjection, BeamsTakenWhileTheHeadWasTooSteepAreInvalid) {
+  RawScan raw = raw_scan(std::vector<float>(11, 2.0F), 0.0, 0.01);
+  raw.sweep_time = std::chrono::milliseconds(100);
+  raw.attitude = Attitude{};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double pitch : {1.5, nan}) {
+    raw.later_attitudes = {{std::chrono::milliseconds(45), Attitude{}},
+                           {std::chrono::milliseconds(55), Attitude{0.0, pitch, 0.0}},
+                           {std::chrono::milliseconds(65), Attitude{}}};
+    const Scan2 scan = project_scan(raw, {});
+    ASSERT_EQ(scan.beams.size(), 11U);
+    for (std::size_t i = 0; i < 11; ++i) {
+      EXPECT_EQ(scan.beams[i].kind, i == 5 || i == 6 ? BeamKind::invalid : BeamKind::hit) << i;
+      EXPECT_TRUE(std::isfinite(scan.beams[i].angle_rad));
+    }
+  }
 }
 
 TEST(HeadProjection, NodingDownCutsOffBeamsThatMeetTheFloor) {

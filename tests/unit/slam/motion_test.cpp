@@ -178,6 +178,17 @@ TEST(Deskew, BringsASweepTakenInMotionBackToTheFirstBeam) {
   EXPECT_LT(worst_after, 1e-4);
 }
 
+TEST(Deskew, LeavesTheTurnToTheAttitudeThatUndidIt) {
+  Scan2 scan = support::scan_of(support::small_flat(), {});
+  scan.sweep_time = kTenthSecond;
+  scan.turn_undone = true;
+  const Scan2 before = scan;
+  deskew(scan, {0.1, 0.0, 0.5}, kTenthSecond);
+  const std::size_t last = scan.beams.size() - 1;
+  EXPECT_NEAR(scan.beams[last].x_m, before.beams[last].x_m + 0.1F, 1e-5);
+  EXPECT_NEAR(scan.beams[last].y_m, before.beams[last].y_m, 1e-5);
+}
+
 TEST(Deskew, LeavesScansAloneThatTookNoTimeOrCannotBeTrue) {
   const Scan2 scan = support::scan_of(support::small_flat(), {});
   Scan2 same = scan;

@@ -1,0 +1,34 @@
+#include <array>
+#include <numbers>
+
+#include "agents/ahrs/ahrs_source.hpp"
+
+namespace lifeline::ahrs {
+
+Result<AhrsOptions> read_ahrs_options(const sources::SourceSpec& spec) {
+  if (spec.kind != "ahrs") {
+    return fail(ErrorCode::wrong_use,
+                "attitude '{}:{}': unknown kind '{}'; there is: ahrs (ahrs:DEVICE?kind=vectornav)",
+                spec.kind, spec.target, spec.kind);
+  }
+  const auto known = spec.allow_options({"kind", "baud", "roll", "pitch", "yaw"});
+  if (!known) return forward_error(known);
+  const auto kind = spec.choice("kind", "vectornav", {"vectornav", "ahrs8"});
+  if (!kind) return forward_error(kind);
+  const auto baud = spec.integer("baud", 115'200, 9'600, 3'000'000);
+  if (!baud) return forward_error(baud);
+  std::array<double, 3> angles_rad{};
+  constexpr std::array<const char*, 3> kNames{"roll", "pitch", "yaw"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto angle_deg = spec.number(kNames[i], 0.0, -180.0, 180.0);
+    if (!angle_deg) return forward_error(angle_deg);
+    angles_rad[i] = *angle_deg * std::numbers::pi / 180.0;
+  }
+  AhrsOptions options{spec.target, *kind, static_cast<int>(*baud), {}};
+  options.R_body_sensor = Eigen::AngleAxisd(angles_rad[2], Eigen::Vector3d::UnitZ()) *
+                          Eigen::AngleAxisd(angles_rad[1], Eigen::Vector3d::UnitY()) *
+                          Eigen::AngleAxisd(angles_rad[0], Eigen::Vector3d::UnitX());
+  return options;
+}
+
+}  // namespace lifeline::ahrs
