@@ -60,9 +60,28 @@ inline void store_cells(IntLanes lanes, TsdCell* cells) {
   return whole - (rest >= 0.5F) + (rest <= -0.5F);  // a true comparison is -1
 }
 
+/// As std::floor, for numbers that an int32_t holds.
+[[nodiscard]] inline IntLanes floor_of(FloatLanes x) {
+  const auto whole = __builtin_convertvector(x, IntLanes);
+  return whole + (__builtin_convertvector(whole, FloatLanes) > x);  // a true comparison is -1
+}
+
 /// begin, begin + 1, ...
 [[nodiscard]] inline IntLanes count_from(std::int32_t begin) {
   return IntLanes{0, 1, 2, 3} + begin;
+}
+
+/// Turns four vectors of four numbers about their diagonal.
+inline void transpose(std::array<FloatLanes, 4>& rows) {
+  const auto& [a, b, c, d] = rows;
+  const FloatLanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  const FloatLanes ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const FloatLanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  const FloatLanes cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  rows = {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+          __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
+          __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
+          __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7)};
 }
 
 }  // namespace lifeline
