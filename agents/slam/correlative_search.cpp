@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "common/base/cpu_clones.hpp"
 #include "common/grid/cell_lanes.hpp"
 
 namespace lifeline::slam {
@@ -21,6 +22,7 @@ constexpr int kLanes16 = 16;
 constexpr int kRows = 4;
 
 /// The field at kLanes16 places in each of kRows rows, summed over all points.
+LIFELINE_ALSO_FOR_AVX2
 void sum_points(const std::int8_t* field, std::ptrdiff_t row,
                 std::span<const std::ptrdiff_t> points, std::int16_t* sums,
                 std::ptrdiff_t sums_row) {
