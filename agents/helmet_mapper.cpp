@@ -65,8 +65,6 @@ void HelmetMapper::step(const sensing::RawScan& raw) {
   const bool doubtful = faults.any() || raw.attitude_health != sensing::AttitudeHealth::good;
   const slam::SlamStep step = slam_.step(scan, motion, doubtful);
   step_ms_.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
-  // Nobody closes loops in a running helmet yet (docs/decisions/0206).
-  (void)slam_.take_keyframes();
   for (const TileIndex tile : slam_.take_changed_tiles()) changed_.insert(tile);
   note_step(raw, scan, step);
 }

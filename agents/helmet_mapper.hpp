@@ -19,7 +19,7 @@ namespace lifeline {
 class HelmetMapper {
  public:
   HelmetMapper(slam::SlamConfig slam, GridGeometry geometry, sensing::ProjectionConfig projection)
-      : slam_(with_one_story(std::move(slam)), geometry), projection_(projection) {}
+      : slam_(without_loops(std::move(slam)), geometry), projection_(projection) {}
 
   void step(const sensing::RawScan& raw);
   /// What changed in the peers' part of the working map.
@@ -48,9 +48,11 @@ class HelmetMapper {
   [[nodiscard]] const std::vector<double>& step_ms() const { return step_ms_; }
 
  private:
-  /// Stories need the loops that are not closed here yet (docs/decisions/0205).
-  [[nodiscard]] static slam::SlamConfig with_one_story(slam::SlamConfig config) {
+  /// Nobody closes loops in a running helmet yet (docs/decisions/0206), and stories need them
+  /// (0205).
+  [[nodiscard]] static slam::SlamConfig without_loops(slam::SlamConfig config) {
     config.stories.max_stories = 1;
+    config.keyframes.hand_over = false;
     return config;
   }
   void note_step(const sensing::RawScan& raw, const Scan2& scan, const slam::SlamStep& step);

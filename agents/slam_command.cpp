@@ -81,11 +81,20 @@ void correct(std::optional<slam::LoopCloser>& closer, slam::TsdSlam& slam, SlamR
   std::vector<slam::Keyframe> keyframes = slam.take_keyframes();
   if (!closer) return;
   for (slam::Keyframe& keyframe : keyframes) {
-    if (auto correction = closer->add(std::move(keyframe))) {
-      run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
-    }
+    if (!closer->take(std::move(keyframe))) continue;
+    const auto work_out = [&] { return closer->correction(); };
+    run.corrections += slam.apply(closer->keyframes(), work_out) ? 1 : 0;
   }
   run.loop_ms.push_back(milliseconds_since(started));
+}
+
+void finish(slam::LoopCloser& closer, slam::TsdSlam& slam, SlamRun& run) {
+  if (closer.has_corrected()) {
+    const auto work_out = [&] { return *closer.finish(); };
+    run.corrections += slam.apply(closer.keyframes(), work_out) ? 1 : 0;
+  } else if (auto correction = closer.finish()) {
+    run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
+  }
 }
 
 Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfig& projection,
@@ -118,11 +127,7 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
   }
   slam.settle_all();
   correct(closer, slam, run);
-  if (closer) {
-    if (auto correction = closer->finish()) {
-      run.corrections += slam.apply(*std::move(correction)) ? 1 : 0;
-    }
-  }
+  if (closer) finish(*closer, slam, run);
   slam.time_stages(nullptr);
   run.revisited = slam.revisit();
   run.trajectory = slam.trajectory();

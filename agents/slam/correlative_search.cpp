@@ -1,8 +1,12 @@
 #include "agents/slam/correlative_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
+#include <cstring>
+
+#include "common/base/cpu_clones.hpp"
+#include "common/grid/cell_lanes.hpp"
 
 namespace lifeline::slam {
 namespace {
@@ -10,17 +14,47 @@ namespace {
 /// Score of a point on a surface; the sum over 300 points still fits 16 bits.
 constexpr int kFull = 100;
 
-/// Summed at once; a constant number, so that the compiler makes vectors of them.
-constexpr int kLanes = 16;
+static_assert(TsdCell::kTsdOne % kFull == 0);
 
-void add_lanes(const std::int8_t* from, std::int16_t* sum) {
-  for (int i = 0; i < kLanes; ++i) sum[i] = static_cast<std::int16_t>(sum[i] + from[i]);
+/// Summed at once, in vectors of GCC and Clang: so many places along x ...
+constexpr int kLanes16 = 16;
+/// ... in so many rows.
+constexpr int kRows = 4;
+
+/// The field at kLanes16 places in each of kRows rows, summed over all points.
+LIFELINE_ALSO_FOR_AVX2
+void sum_points(const std::int8_t* field, std::ptrdiff_t row,
+                std::span<const std::ptrdiff_t> points, std::int16_t* sums,
+                std::ptrdiff_t sums_row) {
+  using Half = std::int8_t __attribute__((vector_size(8)));
+  using Sums = std::int16_t __attribute__((vector_size(16)));
+  std::array<std::array<Sums, 2>, kRows> total{};
+  for (const std::ptrdiff_t point : points) {
+    const std::int8_t* from = field + point;
+    for (auto& sums_of_row : total) {
+      std::array<Half, 2> fits;
+      std::memcpy(fits.data(), from, sizeof fits);
+      sums_of_row[0] += __builtin_convertvector(fits[0], Sums);
+      sums_of_row[1] += __builtin_convertvector(fits[1], Sums);
+      from += row;
+    }
+  }
+  for (const auto& sums_of_row : total) {
+    std::memcpy(sums, sums_of_row.data(), sizeof sums_of_row);
+    sums += sums_row;
+  }
 }
 
-/// How well a scan's point would fit into a cell.
-int fit(TsdCell cell, int free_penalty) {
-  if (cell.tsd > TsdCell::kTsdOne * 95 / 100) return -free_penalty;
-  return kFull - kFull * std::abs(int{cell.tsd}) / TsdCell::kTsdOne;
+/// How well a scan's point would fit into each of four cells; kUnknown where they are not known.
+constexpr std::int32_t kUnknown = -128;
+IntLanes fit(IntLanes cells, int free_penalty) {
+  const IntLanes tsd = (cells << 16) >> 16;
+  // The quotient of small whole numbers, cut off, is exact also by this way.
+  const FloatLanes loss = __builtin_convertvector(magnitude(tsd), FloatLanes) /
+                          static_cast<float>(TsdCell::kTsdOne / kFull);
+  const IntLanes near = kFull - __builtin_convertvector(loss, IntLanes);
+  const IntLanes known = choose(tsd > TsdCell::kTsdOne * 95 / 100, IntLanes{} - free_penalty, near);
+  return choose(cells > kTsdBits, known, IntLanes{} + kUnknown);
 }
 
 }  // namespace
@@ -83,7 +117,8 @@ void CorrelativeSearch::build_field(const WorkingMap& map, const Pose2& centre, 
   columns_ = (high.x - low.x + 1) * kFieldSide;
   rows_ = (high.y - low.y + 1) * kFieldSide;
   field_origin_m_ = Eigen::Vector2d(low.x, low.y) * tile_m;
-  field_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + kLanes, 0);
+  field_.assign(
+      static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_ + kRows) + kLanes16, 0);
   for (std::int32_t y = low.y; y <= high.y; ++y) {
     for (std::int32_t x = low.x; x <= high.x; ++x) {
       const TsdTile* cells = map.find({x, y});
@@ -104,17 +139,18 @@ const CorrelativeSearch::TileField& CorrelativeSearch::field_of(TileIndex tile,
   if (!fresh) return slot->second;
   const int penalty = static_cast<int>(std::lround(config_.free_penalty * kFull));
   for (int y = 0; y < kFieldSide; ++y) {
-    for (int x = 0; x < kFieldSide; ++x) {
-      const std::size_t corner = offset_in_tile({2 * x, 2 * y});
-      bool known = false;
-      int best = -penalty;
-      for (const std::size_t i : {corner, corner + 1, corner + kTileSide, corner + kTileSide + 1}) {
-        if (!cells[i].known()) continue;
-        known = true;
-        best = std::max(best, fit(cells[i], penalty));
-      }
-      slot->second[static_cast<std::size_t>(y * kFieldSide + x)] =
-          static_cast<std::int8_t>(known ? best : 0);
+    const TsdCell* low = cells.data() + offset_in_tile({0, 2 * y});
+    std::array<std::int32_t, kTileSide> best;  // of the two cells above each other
+    for (std::size_t x = 0; x < best.size(); x += kLanes) {
+      const IntLanes a = fit(load_cells(low + x), penalty);
+      const IntLanes b = fit(load_cells(low + kTileSide + x), penalty);
+      const IntLanes better = choose(a > b, a, b);
+      std::memcpy(&best[x], &better, sizeof better);
+    }
+    for (std::size_t x = 0; x < kFieldSide; ++x) {
+      const std::int32_t best_of_four = std::max(best[2 * x], best[2 * x + 1]);
+      slot->second[static_cast<std::size_t>(y) * kFieldSide + x] =
+          static_cast<std::int8_t>(best_of_four == kUnknown ? 0 : best_of_four);
     }
   }
   return slot->second;
@@ -122,20 +158,24 @@ const CorrelativeSearch::TileField& CorrelativeSearch::field_of(TileIndex tile,
 
 void CorrelativeSearch::score_yaw(const Pose2& centre, double yaw_rad, int window) {
   const int side = 2 * window + 1;
-  // Rows are summed in whole vectors; what the last one holds beyond the window is never read.
-  stride_ = (side + kLanes - 1) / kLanes * kLanes;
-  scores_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(side), 0);
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  corners_.clear();
   for (const Eigen::Vector2d& p : points_) {
     const double x_m = centre.x_m + c * p.x() - s * p.y() - field_origin_m_.x();
     const double y_m = centre.y_m + s * p.x() + c * p.y() - field_origin_m_.y();
     const int column = static_cast<int>(std::floor(x_m / spacing_m_)) - window;
     const int row = static_cast<int>(std::floor(y_m / spacing_m_)) - window;
     if (column < 0 || row < 0 || column + side > columns_ || row + side > rows_) continue;
-    const std::int8_t* from = field_.data() + static_cast<std::ptrdiff_t>(row) * columns_ + column;
-    std::int16_t* sum = scores_.data();
-    for (int dy = 0; dy < side; ++dy, from += columns_, sum += stride_) {
-      for (int dx = 0; dx < stride_; dx += kLanes) add_lanes(from + dx, sum + dx);
+    corners_.push_back(std::ptrdiff_t{row} * columns_ + column);
+  }
+  // Summed in whole blocks; what the last ones hold beyond the window is never read.
+  const int rows = (side + kRows - 1) / kRows * kRows;
+  stride_ = (side + kLanes16 - 1) / kLanes16 * kLanes16;
+  scores_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows));
+  for (std::ptrdiff_t dy = 0; dy < rows; dy += kRows) {
+    for (std::ptrdiff_t dx = 0; dx < stride_; dx += kLanes16) {
+      sum_points(field_.data() + dy * columns_ + dx, columns_, corners_,
+                 scores_.data() + dy * stride_ + dx, stride_);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -69,7 +70,8 @@ class CorrelativeSearch {
   double spacing_m_ = 0.1;
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::int16_t> scores_;  ///< of one yaw, (2 window + 1) rows of stride_
+  std::vector<std::ptrdiff_t> corners_;  ///< in field_, of each turned point's window
+  std::vector<std::int16_t> scores_;     ///< of one yaw, (2 window + 1) rows of stride_
   int stride_ = 0;
   std::vector<SearchCandidate> found_;
 };

@@ -1,6 +1,7 @@
 #include "agents/slam/direct_matcher.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -23,6 +24,12 @@ constexpr float kTypicalLength_m = 0.2F;
 Eigen::Vector3d information_of(const Prediction& prior) {
   const double xy = 1.0 / (prior.sigma_xy_m * prior.sigma_xy_m);
   return {xy, xy, 1.0 / (prior.sigma_yaw_rad * prior.sigma_yaw_rad)};
+}
+
+/// Adds four quantities of four points each, point by point.
+void add_each(std::array<FloatLanes, 4> quantities, FloatLanes& sums) {
+  transpose(quantities);
+  for (const FloatLanes& of_point : quantities) sums += of_point;
 }
 
 /// A pose as the loops over points want it: in cells of the view, as floats.
@@ -50,8 +57,17 @@ void DirectMatcher::set_scan(std::span<const SurfacePiece> pieces) {
     points_.push_back(
         {pieces[i].point.x(), pieces[i].point.y(), std::sqrt(length_m / kTypicalLength_m)});
   }
+  fours_.assign((points_.size() + kLanes - 1) / kLanes, FourPoints{});
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    FourPoints& four = fours_[i / kLanes];
+    four.x[i % kLanes] = points_[i].x;
+    four.y[i % kLanes] = points_[i].y;
+    four.weight[i % kLanes] = points_[i].weight;
+  }
 }
 
+// Four points are worked out at a time, but summed one after the other: the sums depend on the
+// order. A point of weight 0 leaves them as they are.
 DirectMatcher::Normal DirectMatcher::linearise(const TsdView& view, const Pose2& T_map_head,
                                                double kernel_m) const {
   const ViewPose pose(view, T_map_head);
@@ -59,33 +75,29 @@ DirectMatcher::Normal DirectMatcher::linearise(const TsdView& view, const Pose2&
   const auto cell_m = static_cast<float>(view.geometry().cell_size_m);
   const float slope = truncation_m / cell_m;  // of metres of residual per metre of motion
   const auto k2 = static_cast<float>(kernel_m * kernel_m);
-  float hxx = 0, hxy = 0, hyy = 0, hxt = 0, hyt = 0, htt = 0, gx = 0, gy = 0, gt = 0, sum = 0;
-  TsdView::Sample sample{};
-  for (const Point& point : points_) {
-    const float qx = pose.c * point.x - pose.s * point.y;  // from the head, in cells
-    const float qy = pose.s * point.x + pose.c * point.y;
-    if (!view.sample(pose.x + qx, pose.y + qy, sample)) continue;
-    if (sample.value > kFree) continue;
-    const float r = sample.value * truncation_m;
-    const float fade = k2 / (k2 + r * r);
-    const float w = point.weight * fade * fade;
-    const float jx = slope * sample.gradient.x(), jy = slope * sample.gradient.y();
-    const float jt = (jy * qx - jx * qy) * cell_m;
-    hxx += w * jx * jx;
-    hxy += w * jx * jy;
-    hyy += w * jy * jy;
-    hxt += w * jx * jt;
-    hyt += w * jy * jt;
-    htt += w * jt * jt;
-    gx += w * jx * r;
-    gy += w * jy * r;
-    gt += w * jt * r;
-    sum += w;
+  FloatLanes of_x{}, of_y{}, of_turn{};
+  for (const FourPoints& point : fours_) {
+    const FloatLanes qx = pose.c * point.x - pose.s * point.y;  // from the head, in cells
+    const FloatLanes qy = pose.s * point.x + pose.c * point.y;
+    const auto sample = view.sample_four(pose.x + qx, pose.y + qy);
+    const IntLanes counts = sample.known & (sample.value <= kFree);
+    if (!any(counts)) continue;
+    const FloatLanes r = sample.value * truncation_m;
+    const FloatLanes fade = k2 / (k2 + r * r);
+    const FloatLanes w = choose(counts, point.weight * fade * fade, FloatLanes{});
+    const FloatLanes jx = slope * sample.gradient_x, jy = slope * sample.gradient_y;
+    const FloatLanes jt = (jy * qx - jx * qy) * cell_m;
+    const FloatLanes wx = w * jx, wy = w * jy, wt = w * jt;
+    add_each({wx * jx, wx * jy, wx * jt, wx * r}, of_x);
+    add_each({wy * jy, wy * jt, wy * r, w}, of_y);
+    add_each({wt * jt, wt * r, w, w}, of_turn);
   }
   Normal normal;
+  const float hxx = of_x[0], hxy = of_x[1], hxt = of_x[2], hyy = of_y[0], hyt = of_y[1],
+              htt = of_turn[0];
   normal.H << hxx, hxy, hxt, hxy, hyy, hyt, hxt, hyt, htt;
-  normal.g << gx, gy, gt;
-  normal.weight = static_cast<double>(sum);
+  normal.g << of_x[3], of_y[2], of_turn[1];
+  normal.weight = static_cast<double>(of_y[3]);
   return normal;
 }
 

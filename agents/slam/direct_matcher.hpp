@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "agents/slam/slam_types.hpp"
+#include "common/grid/cell_lanes.hpp"
 #include "common/grid/scan_surface.hpp"
 #include "common/grid/tsd_view.hpp"
 
@@ -53,6 +54,10 @@ class DirectMatcher {
     float x, y;  ///< head frame, metres
     float weight;
   };
+  /// Four of them side by side; the last ones have weight 0 where there are no more.
+  struct FourPoints {
+    FloatLanes x, y, weight;
+  };
   /// Normal equations of one iteration, in metres and radians, about the head.
   struct Normal {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
@@ -67,6 +72,7 @@ class DirectMatcher {
 
   DirectConfig config_;
   std::vector<Point> points_;
+  std::vector<FourPoints> fours_;  ///< the same
 };
 
 }  // namespace lifeline::slam

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "agents/slam/fit_field.hpp"
 #include "agents/slam/working_map.hpp"
 #include "common/grid/pose2.hpp"
 
@@ -15,8 +15,7 @@ namespace lifeline::slam {
 
 struct GlobalSearchConfig {
   int max_points = 128;
-  double spacing_m = 0.1;  ///< of the field; doubled until all of the map fits max_cells
-  std::size_t max_cells = std::size_t{1} << 21U;
+  FitFieldConfig field;
   double min_agreement = 0.5;  ///< poses that agree less are not looked for
   double margin = 0.15;        ///< nor those that agree this much less than the best
   double apart_m = 0.4;        ///< nearer poses are the same place ...
@@ -49,9 +48,9 @@ class GlobalSearch {
   explicit GlobalSearch(GlobalSearchConfig config) : config_(config) {}
 
   /// Takes a map, as it is now: some milliseconds for 1000 m2.
-  void set_map(const WorkingMap& map);
-  void clear();
-  [[nodiscard]] bool has_map() const { return !fit_[0].empty(); }
+  void set_map(const WorkingMap& map) { field_.assign(map, config_.field); }
+  void clear() { field_.clear(); }
+  [[nodiscard]] bool has_map() const { return !field_.empty(); }
 
   /// The places in known free space where a head that sees `points` (head frame) may stand, turned
   /// by `yaw_rad` +- `window_rad`.
@@ -59,12 +58,7 @@ class GlobalSearch {
                                           double window_rad);
 
  private:
-  static constexpr int kLevels = 4;  ///< blocks of 1, 2, 4, 8 places a side
-  static constexpr int kBlock = 1 << (kLevels - 1);
-
-  struct Place {
-    std::int32_t column, row;
-  };
+  using Place = FitField::Place;
   /// A block of places at one yaw, and the most that any of them may score.
   struct Node {
     int bound;
@@ -72,11 +66,6 @@ class GlobalSearch {
     Place corner;
   };
 
-  void lay_out(const WorkingMap& map);
-  void fill_fit(const WorkingMap& map);
-  void fill_tile(const TsdTile& cells, const GridGeometry& geometry, Eigen::Vector2d corner_m);
-  void build_level(int level);
-  void build_phases();
   void choose_points(std::span<const Eigen::Vector2d> points);
   void turn_points(double yaw_rad);
   void bound_blocks(int yaw, std::vector<Node>& nodes);
@@ -84,20 +73,9 @@ class GlobalSearch {
   void descend(Place corner, int level, double yaw_rad);
   void note(int score, Place place, double yaw_rad);
   [[nodiscard]] int least_score() const;
-  [[nodiscard]] std::size_t at(Place place) const {
-    return static_cast<std::size_t>(place.row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(place.column);
-  }
 
   GlobalSearchConfig config_;
-  double spacing_m_ = 0.1;
-  Eigen::Vector2d origin_m_ = Eigen::Vector2d::Zero();
-  std::int32_t columns_ = 0, rows_ = 0;  ///< multiples of kBlock
-  /// Of each level, the best fit within the block whose lower left corner is here.
-  std::array<std::vector<std::int8_t>, kLevels> fit_;
-  std::vector<std::int8_t> phases_;        ///< the last level, by (row, column) modulo kBlock
-  std::vector<std::uint8_t> free_;         ///< whether a head may stand here ...
-  std::vector<std::uint8_t> free_blocks_;  ///< ... or anywhere in this block
+  FitField field_;
   std::vector<Eigen::Vector2d> points_;
   std::vector<Place> offsets_;  ///< of the turned points from the head
   std::vector<std::int16_t> sums_;

@@ -28,6 +28,19 @@ bool KeyframeLog::is_due(const Pose2& T_map_head) const {
 
 void KeyframeLog::keep(Timestamp stamp, const Pose2& T_map_head, const Eigen::Matrix3d& covariance,
                        std::span<const SurfacePiece> pieces) {
+  if (config_.hand_over) {
+    Keyframe keyframe = made(stamp, T_map_head, covariance);
+    keyframe.surface = PackedSurface(pieces);
+    waiting_.push_back(keyframe);
+    if (recent_.size() == kRecent) recent_.erase(recent_.begin());
+    recent_.push_back(std::move(keyframe));
+  }
+  poses_.push_back(T_map_head);
+  lost_covariance_.setZero();
+}
+
+Keyframe KeyframeLog::made(Timestamp stamp, const Pose2& T_map_head,
+                           const Eigen::Matrix3d& covariance) const {
   Keyframe keyframe;
   const Pose2 T_map_previous = poses_.empty() ? Pose2{} : poses_.back();
   keyframe.index = static_cast<KeyframeIndex>(poses_.size());
@@ -39,12 +52,7 @@ void KeyframeLog::keep(Timestamp stamp, const Pose2& T_map_head, const Eigen::Ma
   keyframe.step_covariance += keyframe.T_previous_this.translation().norm() *
                               diagonal_covariance(config_.noise_xy_m, config_.noise_yaw_rad);
   keyframe.step_covariance += diagonal_covariance(kRounding_m, kRounding_rad);
-  keyframe.surface = PackedSurface(pieces);
-  waiting_.push_back(keyframe);
-  if (recent_.size() == kRecent) recent_.erase(recent_.begin());
-  recent_.push_back(std::move(keyframe));
-  poses_.push_back(T_map_head);
-  lost_covariance_.setZero();
+  return keyframe;
 }
 
 std::vector<Keyframe> KeyframeLog::take() {
@@ -53,9 +61,7 @@ std::vector<Keyframe> KeyframeLog::take() {
 
 std::optional<Pose2> KeyframeLog::rebase(const MapCorrection& correction) {
   const std::size_t known = correction.T_map_head.size();
-  if (recent_.empty() || known == 0 || known > poses_.size() || known <= recent_.front().index) {
-    return std::nullopt;
-  }
+  if (!can_rebase(known)) return std::nullopt;
   const Pose2 T_new_old = correction.T_map_head.back() * poses_[known - 1].inverse();
   std::copy(correction.T_map_head.begin(), correction.T_map_head.end(), poses_.begin());
   for (std::size_t i = known; i < poses_.size(); ++i) poses_[i] = T_new_old * poses_[i];

@@ -10,6 +10,7 @@
 namespace lifeline::slam {
 
 struct KeyframeConfig {
+  bool hand_over = true;      ///< false: nobody takes them; only the poses are kept
   double distance_m = 0.25;   ///< a pushed scan is kept when the head moved this far ...
   double turn_rad = 0.3;      ///< ... or turned this much since the last one that was
   double noise_xy_m = 0.012;  ///< after one metre of path, beside what the match knows of
@@ -35,6 +36,10 @@ class KeyframeLog {
   /// The keyframes since the last call.
   [[nodiscard]] std::vector<Keyframe> take();
 
+  /// Whether rebase() could take a correction that knows the first `known` keyframes.
+  [[nodiscard]] bool can_rebase(std::size_t known) const {
+    return !recent_.empty() && known > recent_.front().index && known <= poses_.size();
+  }
   /// Moves all poses to the corrected past. How the present moves, T_new_old; empty, and nothing
   /// done, where the correction is too old.
   [[nodiscard]] std::optional<Pose2> rebase(const MapCorrection& correction);
@@ -46,6 +51,10 @@ class KeyframeLog {
   [[nodiscard]] const std::vector<Pose2>& poses() const { return poses_; }
 
  private:
+  /// The next keyframe, without its surfaces.
+  [[nodiscard]] Keyframe made(Timestamp stamp, const Pose2& T_map_head,
+                              const Eigen::Matrix3d& covariance) const;
+
   KeyframeConfig config_;
   std::vector<Keyframe> waiting_;  ///< not taken yet
   std::vector<Keyframe> recent_;

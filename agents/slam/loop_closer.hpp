@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "agents/slam/keyframe.hpp"
@@ -70,11 +71,21 @@ class LoopCloser {
              const TrackerConfig& tracker, const DirectConfig& direct, const SearchConfig& search);
 
   /// Takes the next keyframe (their indices are consecutive, from 0). Looks for a loop if one is
-  /// due; the correction, where the past has moved.
-  [[nodiscard]] std::optional<MapCorrection> add(Keyframe keyframe);
+  /// due; whether the past has moved: then correction() tells how.
+  [[nodiscard]] bool take(Keyframe keyframe);
+  [[nodiscard]] MapCorrection correction();
+  /// Both at once.
+  [[nodiscard]] std::optional<MapCorrection> add(Keyframe keyframe) {
+    if (!take(std::move(keyframe))) return std::nullopt;
+    return correction();
+  }
   /// The correction that is due when no more keyframes come: all that is known, and each keyframe
   /// aligned once more with the whole. None where nothing is to be corrected.
   [[nodiscard]] std::optional<MapCorrection> finish();
+
+  /// Whether there was a correction before: then finish() has one more.
+  [[nodiscard]] bool has_corrected() const { return redrawn_; }
+  [[nodiscard]] std::size_t keyframes() const { return keyframes_.size(); }
 
   [[nodiscard]] std::size_t loops() const { return loops_; }
 
@@ -92,6 +103,8 @@ class LoopCloser {
   void close(const GraphEdge& edge);
   [[nodiscard]] bool has_moved() const;
   [[nodiscard]] TsdGrid drawn_layer();
+  /// The same as the place to match against.
+  void draw_all();
   void tie_places();
   /// Moves keyframes that fit better elsewhere; how many did.
   int reconsider();

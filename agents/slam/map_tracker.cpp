@@ -54,9 +54,16 @@ Eigen::Matrix3d MapTracker::spread(const std::vector<ScoredMatch>& matches,
 void MapTracker::add_places(const WorkingMap& map, const TsdView& view,
                             std::span<const SurfacePiece> pieces, const Prediction& prediction,
                             std::vector<Place>& places) {
+  double best = places.front().score;
   for (const SearchCandidate& candidate : search_.search(map, pieces, prediction)) {
     const Pose2 pose = direct_.align(view, candidate.T_map_head, prediction, kTrialIterations);
-    places.push_back({pose, score(view, pose, prediction), PoseSource::search});
+    const double agreement = direct_.agreement(view, pose);
+    // Following the beams costs most of a score: not where keep_rivals() will drop the place
+    // anyway.
+    if (log_likelihood(agreement, pose, prediction) < best - config_.rival_score) continue;
+    const double fit = agreement - through_walls(view, pose);
+    places.push_back({pose, log_likelihood(fit, pose, prediction), PoseSource::search});
+    best = std::max(best, places.back().score);
   }
 }
 
@@ -85,13 +92,21 @@ bool MapTracker::needs_search(const MatchResult& local, const Prediction& predic
 
 double MapTracker::score(const TsdView& view, const Pose2& T_map_head,
                          const Prediction& prediction) const {
+  const double fit = direct_.agreement(view, T_map_head) - through_walls(view, T_map_head);
+  return log_likelihood(fit, T_map_head, prediction);
+}
+
+double MapTracker::through_walls(const TsdView& view, const Pose2& T_map_head) const {
+  return config_.through_wall * direct_.seen_through_walls(view, T_map_head);
+}
+
+double MapTracker::log_likelihood(double fit, const Pose2& T_map_head,
+                                  const Prediction& prediction) const {
   const Pose2& expected = prediction.T_map_head;
   const double xy =
       (T_map_head.translation() - expected.translation()).norm() / prediction.sigma_xy_m;
   const double yaw =
       normalise_angle(T_map_head.yaw_rad - expected.yaw_rad) / prediction.sigma_yaw_rad;
-  const double fit = direct_.agreement(view, T_map_head) -
-                     config_.through_wall * direct_.seen_through_walls(view, T_map_head);
   return search_.config().independent_points * fit - 0.5 * (xy * xy + yaw * yaw);
 }
 

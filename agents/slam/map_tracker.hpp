@@ -76,6 +76,11 @@ class MapTracker {
   /// What the rivals add to the covariance of one of them.
   [[nodiscard]] Eigen::Matrix3d spread(const std::vector<ScoredMatch>& matches,
                                        const ScoredMatch& about) const;
+  /// Of a place where the scan fits so well, `fit` up to 1.
+  [[nodiscard]] double log_likelihood(double fit, const Pose2& T_map_head,
+                                      const Prediction& prediction) const;
+  /// What beams that pass through walls take off the fit.
+  [[nodiscard]] double through_walls(const TsdView& view, const Pose2& T_map_head) const;
   [[nodiscard]] MatchResult judged(const TsdView& view, const Pose2& T_map_head, PoseSource source,
                                    const Prediction& prediction) const;
   [[nodiscard]] bool needs_search(const MatchResult& local, const Prediction& prediction) const;

@@ -14,18 +14,18 @@ double reach_of(std::span<const SurfacePiece> pieces) {
   return static_cast<double>(reach_m);
 }
 
-SubmapChain::SubmapChain(const SubmapConfig& config, GridGeometry geometry, const PushConfig& push,
+SubmapChain::SubmapChain(const SubmapConfig& config, GridGeometry geometry,
                          const MapTracker& tracker)
-    : config_(config), geometry_(geometry), updater_(geometry, push), tracker_(tracker) {}
+    : config_(config), geometry_(geometry), tracker_(tracker) {}
 
-void SubmapChain::start(std::span<const SurfacePiece> pieces) {
+void SubmapChain::start(std::span<const SurfacePiece> pieces, TsdUpdater& updater) {
   begin_submap(0);
   begin_submap(0);
-  draw(pieces);
+  draw(pieces, updater);
 }
 
 GraphEdge SubmapChain::add(std::size_t index, const Keyframe& keyframe,
-                           std::span<const SurfacePiece> pieces) {
+                           std::span<const SurfacePiece> pieces, TsdUpdater& updater) {
   const Pose2& step = keyframe.T_previous_this;
   const bool doubtful =
       exceeds(keyframe.step_covariance, config_.doubtful_xy_m, config_.doubtful_yaw_rad);
@@ -41,7 +41,7 @@ GraphEdge SubmapChain::add(std::size_t index, const Keyframe& keyframe,
   // Behind a doubtful step both begin anew: what comes must not be held to what was before it.
   if (doubtful) begin_submap(index);
   if (doubtful || newer_.path_m >= config_.path_m) begin_submap(index);
-  draw(pieces);
+  draw(pieces, updater);
   return edge;
 }
 
@@ -71,9 +71,9 @@ void SubmapChain::begin_submap(std::size_t first) {
   newer_ = {first, 0.0, {}, std::make_unique<WorkingMap>(geometry_)};
 }
 
-void SubmapChain::draw(std::span<const SurfacePiece> pieces) {
-  (void)updater_.push(pieces, older_.T_first_last, 1.0, older_.map->own());
-  (void)updater_.push(pieces, newer_.T_first_last, 1.0, newer_.map->own());
+void SubmapChain::draw(std::span<const SurfacePiece> pieces, TsdUpdater& updater) {
+  (void)updater.push(pieces, older_.T_first_last, 1.0, older_.map->own());
+  (void)updater.push(pieces, newer_.T_first_last, 1.0, newer_.map->own());
 }
 
 }  // namespace lifeline::slam

@@ -35,14 +35,14 @@ struct SubmapConfig {
 /// the older is matched against, the newer is being drawn.
 class SubmapChain {
  public:
-  SubmapChain(const SubmapConfig& config, GridGeometry geometry, const PushConfig& push,
-              const MapTracker& tracker);
+  SubmapChain(const SubmapConfig& config, GridGeometry geometry, const MapTracker& tracker);
 
   /// The edge to keyframe `index`, whose surfaces are `pieces`, from one before; `index` counts
-  /// from 1, start() was called with 0.
+  /// from 1, start() was called with 0. `updater` draws: it remembers nothing of one call in the
+  /// next.
   [[nodiscard]] GraphEdge add(std::size_t index, const Keyframe& keyframe,
-                              std::span<const SurfacePiece> pieces);
-  void start(std::span<const SurfacePiece> pieces);
+                              std::span<const SurfacePiece> pieces, TsdUpdater& updater);
+  void start(std::span<const SurfacePiece> pieces, TsdUpdater& updater);
 
  private:
   /// The map of a stretch of the path, in the frame of its first keyframe.
@@ -56,11 +56,10 @@ class SubmapChain {
   [[nodiscard]] GraphEdge measure(std::size_t index, const Keyframe& keyframe,
                                   std::span<const SurfacePiece> pieces);
   void begin_submap(std::size_t first);
-  void draw(std::span<const SurfacePiece> pieces);
+  void draw(std::span<const SurfacePiece> pieces, TsdUpdater& updater);
 
   SubmapConfig config_;
   GridGeometry geometry_;
-  TsdUpdater updater_;
   MapTracker tracker_;
   Submap older_, newer_;
 };

@@ -10,9 +10,6 @@
 namespace lifeline::slam {
 namespace {
 
-/// So many scans that found no place are kept for a second look.
-constexpr std::size_t kMaxUnplaced = 500;
-
 FailureDetector::Config detector_config(const SlamConfig& config) {
   FailureDetector::Config detector;
   detector.min_model_points = config.min_model_points;
@@ -179,100 +176,6 @@ MatchResult TsdSlam::match_previous_scan(const Prediction& prediction, const Pos
   return result;
 }
 
-int TsdSlam::settle(std::size_t most_unsettled) {
-  int pushed = 0;
-  while (!unsettled_.empty() && (unsettled_.size() > most_unsettled || agree_on_oldest(stories_))) {
-    const StoryStep step = stories_.front().steps.front();
-    settle_oldest(stories_);
-    pushed += settle_scan(unsettled_.front(), step) ? 1 : 0;
-    unsettled_.erase(unsettled_.begin());
-  }
-  if (stories_.size() == 1) stories_.front().score = 0.0;
-  return pushed;
-}
-
-bool TsdSlam::settle_scan(const UnsettledScan& scan, const StoryStep& step) {
-  const Pose2& T_map_head = step.match.T_map_head;
-  const bool accepted = step.match.verdict == Verdict::accepted;
-  if (!accepted) {
-    keyframes_.note_lost(step.prediction);
-    if (unplaced_.size() < kMaxUnplaced) {
-      unplaced_.push_back({settled_.size(), step.prediction.sigma_xy_m,
-                           step.prediction.sigma_yaw_rad, PackedSurface(scan.pieces)});
-    }
-  }
-  const bool pushes = accepted && push_is_due(T_map_head, scan.scan.stamp);
-  if (pushes) {
-    push(scan.pieces, T_map_head, scan.scan.stamp);
-    if (keyframes_.is_due(T_map_head)) {
-      keyframes_.keep(scan.scan.stamp, T_map_head, step.match.evidence.covariance, scan.pieces);
-    }
-  }
-  note_settled(scan.scan.stamp, T_map_head);
-  return pushes;
-}
-
-void TsdSlam::note_settled(Timestamp stamp, const Pose2& T_map_head) {
-  const Pose2 T_map_keyframe = keyframes_.size() == 0 ? Pose2{} : keyframes_.poses().back();
-  settled_.push_back({stamp, keyframes_.size(), T_map_keyframe.inverse() * T_map_head});
-}
-
-void TsdSlam::settle_all() {
-  settle(0);
-}
-
-std::vector<StampedPose> TsdSlam::trajectory() const {
-  std::vector<StampedPose> trajectory;
-  trajectory.reserve(settled_.size());
-  for (const SettledScan& scan : settled_) trajectory.push_back({scan.stamp, pose_of(scan)});
-  return trajectory;
-}
-
-Pose2 TsdSlam::pose_of(const SettledScan& scan) const {
-  const Pose2 T_map_keyframe =
-      scan.keyframes == 0 ? Pose2{} : keyframes_.poses()[scan.keyframes - 1];
-  return T_map_keyframe * scan.T_keyframe_head;
-}
-
-int TsdSlam::revisit() {
-  int found = 0;
-  std::vector<SurfacePiece> pieces;
-  for (const UnplacedScan& unplaced : std::exchange(unplaced_, {})) {
-    pieces.clear();
-    unplaced.surface.unpack(pieces);
-    if (pieces.empty()) continue;
-    SettledScan& scan = settled_[unplaced.settled];
-    const Prediction prediction{pose_of(scan), unplaced.sigma_xy_m, unplaced.sigma_yaw_rad};
-    view_.assign(map_, prediction.T_map_head.translation(),
-                 reach_of(pieces) + 2.0 + config_.search.max_window_m);
-    const MatchResult match = tracker_.match(map_, view_, pieces, prediction).front().match;
-    if (match.verdict != Verdict::accepted) continue;
-    scan.T_keyframe_head =
-        scan.T_keyframe_head * (prediction.T_map_head.inverse() * match.T_map_head);
-    ++found;
-  }
-  return found;
-}
-
-bool TsdSlam::push_is_due(const Pose2& T_map_head, Timestamp stamp) const {
-  const Pose2 moved = pushed_at_.inverse() * T_map_head;
-  return moved.translation().norm() >= config_.push_distance_m ||
-         std::abs(moved.yaw_rad) >= config_.push_turn_rad ||
-         std::abs(to_seconds(stamp - pushed_stamp_)) >= config_.push_interval_s;
-}
-
-void TsdSlam::push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp) {
-  const StageTimer timer(times_ == nullptr ? nullptr : &times_->push);
-  const double since_s = std::abs(to_seconds(stamp - pushed_stamp_));
-  const Looks looks = since_s < config_.dense_interval_s ? Looks::dense : Looks::sparse;
-  const auto changed = updater_.push(pieces, T_map_head, 1.0, map_.own(), looks);
-  map_.note_own_changed(changed);
-  tracker_.forget(changed);
-  changed_.insert(changed.begin(), changed.end());
-  pushed_at_ = T_map_head;
-  pushed_stamp_ = stamp;
-}
-
 void TsdSlam::change_trust(Verdict verdict) {
   switch (verdict) {
     case Verdict::accepted:
@@ -285,33 +188,6 @@ void TsdSlam::change_trust(Verdict verdict) {
       trust_percent_ = std::max(0, trust_percent_ - 20);
       break;
   }
-}
-
-bool TsdSlam::apply(MapCorrection correction) {
-  if (resumed_) return false;
-  const auto T_new_old = keyframes_.rebase(correction);
-  if (!T_new_old) return false;
-  for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
-  map_.own() = std::move(correction.layer);
-  std::vector<SurfacePiece> pieces;
-  for (const Keyframe& keyframe : keyframes_.unknown_to(correction)) {
-    pieces.clear();
-    keyframe.surface.unpack(pieces);
-    (void)updater_.push(pieces, keyframe.T_map_head, 1.0, map_.own());
-  }
-  for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
-  map_.note_own_changed(std::vector<TileIndex>(changed_.begin(), changed_.end()));
-  tracker_.forget_all();
-  relocaliser_.map_changed();
-  for (Story& story : stories_) {
-    story.motion.move(*T_new_old);
-    for (StoryStep& step : story.steps) {
-      step.match.T_map_head = *T_new_old * step.match.T_map_head;
-      step.prediction.T_map_head = *T_new_old * step.prediction.T_map_head;
-    }
-  }
-  pushed_at_ = *T_new_old * pushed_at_;
-  return true;
 }
 
 std::vector<TileIndex> TsdSlam::take_changed_tiles() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -103,6 +104,9 @@ class TsdSlam {
   /// Takes over a corrected past: the layer as drawn anew, the scans since then on top, the present
   /// moved along. False, and nothing done, where the correction is too old.
   bool apply(MapCorrection correction);
+  /// The same where the correction, which will know the first `keyframes` keyframes, is yet to be
+  /// worked out: the old layer is given up before, so that there are never two.
+  bool apply(std::size_t keyframes, const std::function<MapCorrection()>& work_out);
 
   /// Peers' cells in this map's frame (Eq. 8-10); nullptr takes a tile away.
   void set_peer_tile(TileIndex tile, std::shared_ptr<const TsdTile> cells);
@@ -146,6 +150,7 @@ class TsdSlam {
   [[nodiscard]] Pose2 pose_of(const SettledScan& scan) const;
   [[nodiscard]] bool settle_scan(const UnsettledScan& scan, const StoryStep& step);
   void note_settled(Timestamp stamp, const Pose2& T_map_head);
+  [[nodiscard]] double since_push_s(Timestamp stamp) const;
   [[nodiscard]] bool push_is_due(const Pose2& T_map_head, Timestamp stamp) const;
   void push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp);
   void change_trust(Verdict verdict);

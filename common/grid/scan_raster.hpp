@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "common/grid/free_outline.hpp"
 #include "common/grid/pose2.hpp"
 #include "common/grid/scan_surface.hpp"
 #include "common/grid/tsd_grid.hpp"
@@ -46,30 +47,36 @@ class ScanRaster {
   }
 
  private:
-  struct Crossing {
-    float x = 0.0F;
-    std::int32_t direction = 0;
+  /// A piece of surface in cells, in the raster's frame.
+  struct DrawnPiece {
+    Eigen::Vector2f point, normal;
+    float left, right;
+    float quality;
   };
   void clear();
-  void draw_piece(const SurfacePiece& piece, const Pose2& T_raster_head, float weight);
-  void draw_row(const SurfacePiece& piece, std::int32_t row, std::int32_t first, std::int32_t last);
-  void trace_outline(std::span<const SurfacePiece> pieces, const Pose2& T_raster_head);
+  void draw_piece(const DrawnPiece& piece);
+  void draw_row(const DrawnPiece& piece, std::int32_t row, std::int32_t first, std::int32_t last);
   void fill_outline(float weight);
-  void fill_row(std::int32_t row, std::int32_t first, std::int32_t last, TsdCell value);
-  [[nodiscard]] Tile* tile_at(TileIndex index);
+  /// Calls use(cells, x, inside) for each four cells of a row that any of the cells first ... last
+  /// is among: where they are, and which of them are meant.
+  template <typename Use>
+  void each_four(std::int32_t row, std::int32_t first, std::int32_t last, Use&& use);
+  /// The tile at this place of the directory; nullptr outside of it and of the map's range.
+  [[nodiscard]] Tile* tile_at(TileIndex local);
+  [[nodiscard]] Tile* add_tile(TileIndex local, std::int32_t& slot);
 
   GridGeometry geometry_;
-  RasterConfig config_;
+  float free_weight_;
+  float behind_;                              ///< in cells: how deep surfaces are drawn ...
+  float before_;                              ///< ... and how far before them
+  float one_per_cell_;                        ///< signed distance, in TsdCell units
   std::vector<std::unique_ptr<Tile>> tiles_;  ///< the first `used_` hold this scan
   std::size_t used_ = 0;
   TileIndex first_tile_{};  ///< of the directory
   std::int32_t columns_ = 0;
   std::int32_t rows_ = 0;
-  std::vector<std::int32_t> directory_;   ///< position in tiles_, -1 = none
-  std::vector<float> reach_m_;            ///< of the free space before each piece
-  std::vector<Eigen::Vector2f> outline_;  ///< of the free space seen, closed, in cells
-  std::vector<std::int32_t> row_start_;   ///< where each row's crossings begin
-  std::vector<Crossing> crossings_;
+  std::vector<std::int32_t> directory_;  ///< position in tiles_, -1 = none
+  FreeOutline outline_;
 };
 
 }  // namespace lifeline

@@ -91,6 +91,7 @@ class TsdUpdater {
 
  private:
   [[nodiscard]] bool merge(const ScanRaster::Tile& seen, TsdTile& tile, Looks looks) const;
+  [[nodiscard]] bool merge_each(const TsdCell* seen, TsdCell* cells, Looks looks) const;
 
   GridGeometry geometry_;
   int weight_cap_;

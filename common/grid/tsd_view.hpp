@@ -1,12 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/grid/cell_lanes.hpp"
 #include "common/grid/pose2.hpp"
 #include "common/grid/tile_index.hpp"
 #include "common/grid/tsd_cell.hpp"
@@ -92,7 +95,49 @@ class TsdView {
     return true;
   }
 
+  /// The same at four places at once, to the bit.
+  struct FourSamples {
+    IntLanes known;  ///< all bits set where sample() is true; the rest tells nothing elsewhere
+    FloatLanes value, gradient_x, gradient_y;
+  };
+  [[nodiscard]] FourSamples sample_four(FloatLanes x, FloatLanes y) const {
+    const IntLanes i = floor_of(x - 0.5F), j = floor_of(y - 0.5F);
+    std::array<FloatLanes, 4> corners;  // of one place each: c00, c10, c01, c11, as bits
+    for (int k = 0; k < kLanes; ++k) {
+      corners[static_cast<std::size_t>(k)] = std::bit_cast<FloatLanes>(four_cells(i[k], j[k]));
+    }
+    transpose(corners);  // now each is one corner of all four places
+    IntLanes known = IntLanes{} - 1;
+    std::array<FloatLanes, 4> v;
+    for (std::size_t corner = 0; corner < v.size(); ++corner) {
+      const auto cells = std::bit_cast<IntLanes>(corners[corner]);
+      known &= cells > kTsdBits;
+      v[corner] = __builtin_convertvector((cells << 16) >> 16, FloatLanes) *
+                  (1.0F / static_cast<float>(TsdCell::kTsdOne));
+    }
+    const FloatLanes a = x - 0.5F - __builtin_convertvector(i, FloatLanes);
+    const FloatLanes b = y - 0.5F - __builtin_convertvector(j, FloatLanes);
+    const auto& [v00, v10, v01, v11] = v;
+    const FloatLanes low = v00 + a * (v10 - v00), high = v01 + a * (v11 - v01);
+    return {known, low + b * (high - low), (v10 - v00) + b * ((v11 - v01) - (v10 - v00)),
+            high - low};
+  }
+
  private:
+  /// The cells (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
+  [[nodiscard]] IntLanes four_cells(std::int32_t i, std::int32_t j) const {
+    std::array<TsdCell, 4> cells{};
+    if ((i & 63) != 63 && (j & 63) != 63) {  // all in one tile
+      if (const TsdTile* found = tile(i >> 6, j >> 6)) {
+        const TsdCell* corner = found->data() + offset_in_tile({i, j});
+        cells = {corner[0], corner[1], corner[kTileSide], corner[kTileSide + 1]};
+      }
+    } else {
+      cells = {cell(i, j), cell(i + 1, j), cell(i, j + 1), cell(i + 1, j + 1)};
+    }
+    return std::bit_cast<IntLanes>(cells);
+  }
+
   void set_bounds(const GridGeometry& geometry, const Eigen::Vector2d& centre_map, double reach_m) {
     geometry_ = geometry;
     const double tile_m = geometry.cell_size_m * kTileSide;

@@ -66,7 +66,7 @@ TEST_F(GlobalSearchInTheWing, NothingToCompareFindsNothing) {
 }
 
 TEST_F(GlobalSearchInTheWing, AMapTooLargeForTheFieldIsSearchedMoreCoarsely) {
-  GlobalSearch coarse({.max_cells = 10'000});
+  GlobalSearch coarse({.field = {.max_cells = 10'000}});
   coarse.set_map(map);
   const auto found = coarse.search(seen_from(60), 0.0, M_PI);
   ASSERT_FALSE(found.candidates.empty());
