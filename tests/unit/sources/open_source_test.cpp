@@ -22,10 +22,9 @@ std::string refusal(std::string_view source, SourcePace pace = kUnpaced) {
 }
 
 TEST(OpenSource, ListsTheKindsWhenItKnowsNotTheOneAskedFor) {
-  EXPECT_EQ(
-      refusal("ros2:/scan,/imu"),
-      "source 'ros2:/scan,/imu': unknown kind 'ros2'; there are: carmen, columns, rosbag2, "
-      "rplidar, sim");
+  EXPECT_EQ(refusal("ros2:/scan,/imu"),
+            "source 'ros2:/scan,/imu': unknown kind 'ros2'; there are: carmen, columns, rosbag2, "
+            "rplidar, sim");
   EXPECT_THAT(refusal("intel.log.gz"), HasSubstr("does not begin with a kind"));
 }
 
