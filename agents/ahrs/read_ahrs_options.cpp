@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <numbers>
+#include <string_view>
+
+#include <fmt/ranges.h>
 
 #include "agents/ahrs/ahrs_source.hpp"
 
@@ -11,8 +15,13 @@ Result<AhrsOptions> read_ahrs_options(const sources::SourceSpec& spec) {
                 "attitude '{}:{}': unknown kind '{}'; there is: ahrs (ahrs:DEVICE?kind=vectornav)",
                 spec.kind, spec.target, spec.kind);
   }
-  const auto known = spec.allow_options({"kind", "baud", "roll", "pitch", "yaw"});
-  if (!known) return forward_error(known);
+  // Not allow_options(), which also offers the rate that scans have.
+  constexpr std::array<std::string_view, 5> kKnown{"kind", "baud", "roll", "pitch", "yaw"};
+  for (const auto& option : spec.options) {
+    if (std::find(kKnown.begin(), kKnown.end(), option.first) != kKnown.end()) continue;
+    return fail(ErrorCode::wrong_use, "ahrs: has no option '{}'; there are: {}", option.first,
+                fmt::join(kKnown, ", "));
+  }
   const auto kind = spec.choice("kind", "vectornav", {"vectornav", "ahrs8"});
   if (!kind) return forward_error(kind);
   const auto baud = spec.integer("baud", 115'200, 9'600, 3'000'000);

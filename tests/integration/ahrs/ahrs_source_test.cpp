@@ -265,7 +265,7 @@ TEST(AhrsOptions, ReadsAndRefusesWhatIsWritten) {
   EXPECT_NEAR((options->R_body_sensor * Eigen::Vector3d::UnitZ()).z(), -1.0, 1e-12);
   for (const char* wrong :
        {"imu:/dev/ttyUSB1", "ahrs:/dev/ttyUSB1?kind=xsens", "ahrs:/dev/ttyUSB1?baud=1",
-        "ahrs:/dev/ttyUSB1?tilt=3", "ahrs:/dev/ttyUSB1?roll=200"}) {
+        "ahrs:/dev/ttyUSB1?tilt=3", "ahrs:/dev/ttyUSB1?rate=real", "ahrs:/dev/ttyUSB1?roll=200"}) {
     const auto refused = read(wrong);
     ASSERT_FALSE(refused) << wrong;
     EXPECT_EQ(refused.error().code, ErrorCode::wrong_use);
