@@ -32,22 +32,23 @@ std::string list(const std::vector<ScanMode>& modes) {
 
 }  // namespace
 
-Result<ScanMode> choose_mode(const std::vector<ScanMode>& modes, const std::string& name,
+Result<ScanMode> choose_mode(const ScanModes& modes, const std::string& name,
                              const std::string& device) {
   const ScanMode* best = nullptr;
-  for (const ScanMode& mode : modes) {
+  for (const ScanMode& mode : modes.all) {
+    if (name.empty() && mode.id == modes.typical && can_decode(mode)) return mode;
     const bool wanted = name.empty() ? can_decode(mode) : same_name(mode.name, name);
     if (wanted && (best == nullptr || mode.us_per_sample < best->us_per_sample)) best = &mode;
   }
   if (best == nullptr) {
     return fail(ErrorCode::wrong_use, "{}: has no scan mode '{}'; there are: {}", device,
-                name.empty() ? "that can be decoded" : name, list(modes));
+                name.empty() ? "that can be decoded" : name, list(modes.all));
   }
   if (!can_decode(*best)) {
     return fail(ErrorCode::wrong_use,
                 "{}: mode {} answers in frames of type {:#04x}, which this build does not decode "
                 "(ultra capsules, 0x84: build with -DLIFELINE_RPLIDAR_ULTRA=ON); there are: {}",
-                device, best->name, best->answer_type, list(modes));
+                device, best->name, best->answer_type, list(modes.all));
   }
   return *best;
 }

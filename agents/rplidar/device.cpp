@@ -106,7 +106,7 @@ Result<void> Device::turn_rotor(std::uint16_t pwm) {
   return send(Command::set_motor_pwm, motor_payload(pwm));
 }
 
-Result<std::vector<ScanMode>> Device::list_modes() {
+Result<ScanModes> Device::list_modes() {
   const auto value = ask_conf(ConfEntry::mode_count, std::nullopt);
   if (!value) {
     if (port_.stop_requested()) return forward_error(value);
@@ -117,12 +117,15 @@ Result<std::vector<ScanMode>> Device::list_modes() {
   }
   const auto count = parse_number(*value, 2);
   if (!count || *count == 0 || *count > kMostModes) return no_answer(true);
-  std::vector<ScanMode> modes;
+  ScanModes modes;
   for (std::uint16_t id = 0; id < *count; ++id) {
     auto mode = ask_mode(id);
     if (!mode) return forward_error(mode);
-    modes.push_back(*std::move(mode));
+    modes.all.push_back(*std::move(mode));
   }
+  const auto typical = ask_conf(ConfEntry::typical_mode, std::nullopt);
+  if (!typical) return forward_error(typical);
+  if (const auto id = parse_number(*typical, 2)) modes.typical = static_cast<std::uint16_t>(*id);
   return modes;
 }
 

@@ -18,7 +18,13 @@ struct DeviceSettings {
   std::string device;  ///< e.g. /dev/ttyUSB0
   int baud = 256'000;  ///< A3; A1 and most A2: 115,200
   std::uint16_t motor_pwm = 600;
-  std::string mode;  ///< by name, in any case; empty: the most samples of those that can be decoded
+  std::string mode;  ///< by name, in any case; empty: as choose_mode() says
+};
+
+/// What the device offers.
+struct ScanModes {
+  std::vector<ScanMode> all;
+  std::optional<std::uint16_t> typical;  ///< the id of the one that its maker recommends
 };
 
 /// An RPLIDAR behind a serial port, ready to scan: it answers, is healthy and turns its rotor.
@@ -58,7 +64,7 @@ class Device {
   [[nodiscard]] Result<void> turn_rotor(std::uint16_t pwm);
   [[nodiscard]] Result<Health> ask_health();
   [[nodiscard]] Result<void> drain(Duration quiet);
-  [[nodiscard]] Result<std::vector<ScanMode>> list_modes();
+  [[nodiscard]] Result<ScanModes> list_modes();
   [[nodiscard]] Result<ScanMode> ask_mode(std::uint16_t id);
   [[nodiscard]] Result<std::vector<std::uint8_t>> ask_conf(ConfEntry entry,
                                                            std::optional<std::uint16_t> mode);
@@ -74,9 +80,10 @@ class Device {
   bool has_motor_control_ = false;
 };
 
-/// The mode to scan in: the one called `name` or, without a name, the one with the most samples per
-/// second among those whose answers can be decoded. wrong_use names the modes that there are.
-[[nodiscard]] Result<ScanMode> choose_mode(const std::vector<ScanMode>& modes,
-                                           const std::string& name, const std::string& device);
+/// The mode to scan in: the one called `name`. Without a name the typical one, if its answers can
+/// be decoded, or else the one with the most samples per second that can. wrong_use names the modes
+/// that there are.
+[[nodiscard]] Result<ScanMode> choose_mode(const ScanModes& modes, const std::string& name,
+                                           const std::string& device);
 
 }  // namespace lifeline::rplidar

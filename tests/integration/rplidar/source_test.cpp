@@ -53,12 +53,17 @@ class RplidarSourceTest : public testing::Test {
     ASSERT_TRUE(source);
     ASSERT_TRUE(read(*source, 3));
     fault();
+    std::chrono::steady_clock::time_point mended;
     std::jthread mender([&] {
       EXPECT_TRUE(wait_until([&] { return logged(text); }));
       mend();
+      mended = std::chrono::steady_clock::now();
     });
     while (!logged("scans again")) ASSERT_TRUE(read(*source, 1));
     mender.join();
+    RecordProperty(
+        "ms_until_it_scans_again",
+        static_cast<int>((std::chrono::steady_clock::now() - mended).count() / 1'000'000));
     EXPECT_TRUE(read(*source, 3));
     EXPECT_TRUE(logged(text));
   }

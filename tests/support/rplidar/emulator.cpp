@@ -208,7 +208,7 @@ void RplidarEmulator::answer_conf(std::span<const std::uint8_t> payload) {
   if (entry == 0x70) {
     put(data, static_cast<std::uint32_t>(options_.modes.size()), 2);
   } else if (entry == 0x7C) {
-    put(data, 0, 2);
+    put(data, 3, 2);  // Sensitivity
   } else if (id < options_.modes.size()) {
     const EmulatedMode& mode = options_.modes[id];
     if (entry == 0x71) put(data, mode.us_per_sample_q8, 4);

@@ -9,14 +9,20 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::vector<ScanMode> kModes{{0, "Standard", 252.0, 25.0, 0x81},
-                                   {1, "Express", 126.0, 25.0, 0x82},
-                                   {2, "Sensitivity", 63.0, 25.0, 0x84}};
+/// As an A3 has them; what its maker recommends comes in ultra capsules.
+const ScanModes kModes{{{0, "Standard", 252.0, 25.0, 0x81},
+                        {1, "Express", 126.0, 25.0, 0x82},
+                        {2, "Boost", 63.0, 25.0, 0x84},
+                        {3, "Sensitivity", 63.0, 25.0, 0x84}},
+                       3};
 
-TEST(ChooseMode, takes_the_fastest_that_can_be_decoded) {
+TEST(ChooseMode, takes_the_typical_one_if_it_can_be_decoded_or_else_the_fastest_that_can) {
   const auto mode = choose_mode(kModes, "", "/dev/lidar");
   ASSERT_TRUE(mode);
   EXPECT_EQ(mode->name, frame_format(AnswerType::ultra_capsules) ? "Sensitivity" : "Express");
+  ScanModes slow = kModes;
+  slow.typical = 0;
+  EXPECT_EQ(choose_mode(slow, "", "/dev/lidar")->name, "Standard");
 }
 
 TEST(ChooseMode, takes_the_one_asked_for_in_any_case) {
