@@ -87,6 +87,7 @@ class AhrsSource final : public sensing::AttitudeSource {
   void begin() {
     receiver_.start(now());
     heard_ = now();
+    spoke_ = false;
     const std::string commands = receiver_.decoder().start_commands();
     if (commands.empty()) return;
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(commands.data());
@@ -109,16 +110,21 @@ class AhrsSource final : public sensing::AttitudeSource {
     if (!size) return lose(size.error().text);
     readings_.clear();
     receiver_.push(std::span(bytes).first(*size), now(), readings_);
-    // What is wrong is known before what it was seen in: nobody uses a reading as a good one.
-    report(receiver_.watch().fault(now()));
-    for (const LineReceiver::Reading& each : readings_) {
-      samples_.push(
-          {stamp_of(each.stamp), each.reading.R_world_body * options_.R_body_sensor.conjugate()});
-    }
-    if (!readings_.empty()) {
+    const std::uint64_t spoken = receiver_.watch().counts().readings;
+    if (spoken > spoken_) {  // also what must not be used: a frozen sensor is not a silent one
+      spoken_ = spoken;
+      spoke_ = true;
       heard_ = now();
       retry_ = kFirstRetry;
       told_.clear();
+    }
+    // What is wrong is known before what it was seen in: nobody uses a reading as a good one. And a
+    // port that was only opened anew has not made anything good yet.
+    const AttitudeFault fault = receiver_.watch().fault(now());
+    if (spoke_ || fault != AttitudeFault::none) report(fault);
+    for (const LineReceiver::Reading& each : readings_) {
+      samples_.push(
+          {stamp_of(each.stamp), each.reading.R_world_body * options_.R_body_sensor.conjugate()});
     }
     if (now() - heard_ < kReopenAfter) return true;
     port_.reset();
@@ -164,6 +170,8 @@ class AhrsSource final : public sensing::AttitudeSource {
   std::atomic<sensing::AttitudeHealth> health_{sensing::AttitudeHealth::good};
   AttitudeFault fault_ = AttitudeFault::none;
   SteadyTime heard_{};  ///< the last reading, or when the port was opened
+  bool spoke_ = false;  ///< since the port was opened
+  std::uint64_t spoken_ = 0;
   Duration retry_ = kFirstRetry;
   std::string told_;
   std::uint64_t damaged_told_ = 0;

@@ -139,24 +139,6 @@ TEST(HeadProjection, TheMarginGrowsWithTheRange) {
   EXPECT_EQ(ends_at_height(config.ceiling_height_m - 0.29), BeamKind::invalid);
 }
 
-TEST(HeadProjection, BeamsTakenWhileTheHeadWasTooSteepAreInvalid) {
-  RawScan raw = raw_scan(std::vector<float>(11, 2.0F), 0.0, 0.01);
-  raw.sweep_time = std::chrono::milliseconds(100);
-  raw.attitude = Attitude{};
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double pitch : {1.5, nan}) {
-    raw.later_attitudes = {{std::chrono::milliseconds(45), Attitude{}},
-                           {std::chrono::milliseconds(55), Attitude{0.0, pitch, 0.0}},
-                           {std::chrono::milliseconds(65), Attitude{}}};
-    const Scan2 scan = project_scan(raw, {});
-    ASSERT_EQ(scan.beams.size(), 11U);
-    for (std::size_t i = 0; i < 11; ++i) {
-      EXPECT_EQ(scan.beams[i].kind, i == 5 || i == 6 ? BeamKind::invalid : BeamKind::hit) << i;
-      EXPECT_TRUE(std::isfinite(scan.beams[i].angle_rad));
-    }
-  }
-}
-
 TEST(HeadProjection, NodingDownCutsOffBeamsThatMeetTheFloor) {
   RawScan raw = raw_scan({3.0F, 9.0F}, 0.0, 1e-6);
   raw.attitude = Attitude{0.0, 0.3, 0.0};
