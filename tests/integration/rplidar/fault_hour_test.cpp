@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "agents/sources/open_source.hpp"
+#include "agents/rplidar/rplidar_source.hpp"
 #include "tests/integration/rplidar/logged.hpp"
 #include "tests/support/rplidar/emulator.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -92,7 +92,7 @@ TEST(RplidarSource, comes_through_a_mission_of_faults) {
   test::EmulatorOptions options;
   options.real_time = false;
   RplidarEmulator lidar(options, (folder.path() / "lidar").string());
-  const auto source = sources::open_source("rplidar:" + lidar.device() + "?mode=DenseBoost");
+  const auto source = open_rplidar_source({"rplidar", lidar.device(), {{"mode", "denseboost"}}});
   ASSERT_TRUE(source) << source.error().text;
 
   Saboteur saboteur(lidar);

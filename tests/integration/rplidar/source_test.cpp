@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 
 #include "agents/rplidar/rplidar_source.hpp"
-#include "agents/sources/open_source.hpp"
 #include "tests/integration/rplidar/logged.hpp"
 #include "tests/support/rplidar/emulator.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -26,9 +25,9 @@ using testing::HasSubstr;
 /// An emulated lidar, the source that reads it, and what is logged.
 class RplidarSourceTest : public testing::Test {
  protected:
-  [[nodiscard]] std::unique_ptr<ScanSource> open(const std::string& options = "?mode=DenseBoost") {
-    auto source = sources::open_source("rplidar:" + emulator_.device() + options,
-                                       sources::kRealTime, stop_.get_token());
+  [[nodiscard]] std::unique_ptr<ScanSource> open() {
+    auto source = open_rplidar_source({"rplidar", emulator_.device(), {{"mode", "denseboost"}}},
+                                      stop_.get_token());
     EXPECT_TRUE(source) << source.error().text;
     return source ? *std::move(source) : nullptr;
   }
