@@ -182,12 +182,17 @@ double DirectMatcher::agreement(const TsdView& view, const Pose2& T_map_head) co
 
 double DirectMatcher::seen_through_walls(const TsdView& view, const Pose2& T_map_head) const {
   const ViewPose pose(view, T_map_head);
+  const FloatLanes steps = __builtin_convertvector(count_from(0), FloatLanes) * kBeamStep;
   const auto passes = [&](float x, float y, float length) {
-    for (float at = kBeamStep; at < length - kBeamEnd; at += kBeamStep) {
-      const float share = at / length;
-      const TsdCell cell = view.cell(static_cast<std::int32_t>(pose.x + share * x),
-                                     static_cast<std::int32_t>(pose.y + share * y));
-      if (cell.known() && cell.value() < kBehind) return true;
+    const float end = length - kBeamEnd;
+    for (float at = kBeamStep; at < end; at += kLanes * kBeamStep) {
+      const FloatLanes along = at + steps, share = along / length;
+      const auto column = __builtin_convertvector(pose.x + share * x, IntLanes);
+      const auto row = __builtin_convertvector(pose.y + share * y, IntLanes);
+      for (int i = 0; i < kLanes && along[i] < end; ++i) {
+        const TsdCell cell = view.cell(column[i], row[i]);
+        if (cell.known() && cell.value() < kBehind) return true;
+      }
     }
     return false;
   };

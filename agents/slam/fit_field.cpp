@@ -128,11 +128,16 @@ void FitField::build_level(int level) {
 }
 
 void FitField::build_phases() {
+  const auto block_at = [this](std::int32_t row, std::int32_t column) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(block_stride_) +
+           static_cast<std::size_t>(column);
+  };
   const auto& top = fit_[kLevels - 1];
   const std::int32_t block_columns = columns_ / kBlock, block_rows = rows_ / kBlock;
   // Rows are summed in whole vectors, which may reach into the rim behind their ends.
   block_stride_ = block_columns + kLanes16;
-  const std::size_t blocks = static_cast<std::size_t>(block_stride_ * block_rows);
+  const std::size_t blocks =
+      static_cast<std::size_t>(block_stride_) * static_cast<std::size_t>(block_rows);
   phases_.assign(blocks * kBlock * kBlock + kLanes16, 0);
   free_blocks_.assign(blocks, 0);
   for (int y = 0; y < kBlock; ++y) {
@@ -141,7 +146,7 @@ void FitField::build_phases() {
       for (std::int32_t row = 0; row < block_rows; ++row) {
         for (std::int32_t column = 0; column < block_columns; ++column) {
           const std::size_t here = at({column * kBlock + x, row * kBlock + y});
-          const auto block = static_cast<std::size_t>(row * block_stride_ + column);
+          const std::size_t block = block_at(row, column);
           phase[block] = top[here];
           free_blocks_[block] |= free_[here];
         }
@@ -152,7 +157,7 @@ void FitField::build_phases() {
   for (std::int32_t row = 0; row < block_rows; ++row) {
     Run& run = free_runs_[static_cast<std::size_t>(row)];
     for (std::int32_t column = 0; column < block_columns; ++column) {
-      if (!has_free_place(static_cast<std::size_t>(row * block_stride_ + column))) continue;
+      if (!has_free_place(block_at(row, column))) continue;
       run = {std::min(run.first, column), column + 1};
     }
   }

@@ -15,7 +15,7 @@ namespace lifeline::slam {
 
 struct GlobalSearchConfig {
   int max_points = 128;
-  FitFieldConfig field;
+  FitFieldConfig field{};
   double min_agreement = 0.5;  ///< poses that agree less are not looked for
   double margin = 0.15;        ///< nor those that agree this much less than the best
   double apart_m = 0.4;        ///< nearer poses are the same place ...
