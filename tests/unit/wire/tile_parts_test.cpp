@@ -34,7 +34,7 @@ TEST(TileParts, JoinedInAnyOrderGiveThePayload) {
   TsdTile sample;
   sample.revision = 5;
   sample.parts = 3;
-  for (const std::uint8_t part : {2, 0}) {
+  for (const std::uint8_t part : {std::uint8_t{2}, std::uint8_t{0}}) {
     sample.part = part;
     sample.payload = split[part];
     EXPECT_FALSE(parts.add(sample).value());
