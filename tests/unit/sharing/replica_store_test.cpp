@@ -114,12 +114,13 @@ TEST_F(ReplicaStoreTest, BeginsOnlySoManyTilesAtATime) {
   auto sample = tile_sample(layer("alpha"), {0, 0}, 1, old_cells_);
   sample.parts = 2;
   for (std::size_t i = 0; i < ReplicaStore::kMaxIncompleteTiles; ++i) {
-    sample.tile_x = static_cast<std::int32_t>(i);
+    sample.tile_x = static_cast<std::int32_t>(i % 64);
+    sample.tile_y = static_cast<std::int32_t>(i / 64);
     ASSERT_EQ(store_.apply(sample).value(), Applied::part);
   }
   sample.tile_x = -1;
   EXPECT_FALSE(store_.apply(sample));
-  sample.tile_x = 0;
+  sample.tile_x = 0;  // begun above
   EXPECT_TRUE(store_.apply(sample)) << "one that was begun";
 }
 
