@@ -62,8 +62,7 @@ void HelmetMapper::step(const sensing::RawScan& raw) {
   const sensing::SensedMotion motion = motion_.next(raw);
   const slam::ScanFaults faults = check_.next(raw, motion);
   if (faults.frozen) scan.beams.clear();
-  const bool doubtful = faults.any() || raw.attitude_health != sensing::AttitudeHealth::good;
-  const slam::SlamStep step = slam_.step(scan, motion, doubtful);
+  const slam::SlamStep step = slam_.step(scan, motion, slam::is_doubtful(faults, raw));
   step_ms_.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
   for (const TileIndex tile : slam_.take_changed_tiles()) changed_.insert(tile);
   note_step(raw, scan, step);

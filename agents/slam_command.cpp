@@ -115,8 +115,7 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
     const slam::ScanFaults faults = check.next(**raw, motion);
     if (faults.frozen) scan.beams.clear();
     stages.predict = std::chrono::steady_clock::now() - started;
-    const bool doubtful = faults.any() || (*raw)->attitude_health != sensing::AttitudeHealth::good;
-    run.note(slam.step(scan, motion, doubtful));
+    run.note(slam.step(scan, motion, slam::is_doubtful(faults, **raw)));
     run.step_ms.push_back(milliseconds_since(started));
     run.stages.push_back(stages);
     run.bad_scans += faults.any() ? 1 : 0;

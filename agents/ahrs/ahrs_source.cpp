@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <thread>
@@ -14,6 +12,7 @@
 
 #include "agents/ahrs/fault_text.hpp"
 #include "agents/ahrs/line_receiver.hpp"
+#include "agents/serial/retry_wait.hpp"
 #include "agents/serial/serial_port.hpp"
 #include "common/base/bounded_queue.hpp"
 #include "common/base/log.hpp"
@@ -25,7 +24,6 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kQueued = 1024;  ///< samples: five seconds of 200 Hz
-constexpr Duration kFirstRetry = milliseconds(50), kLongestRetry = milliseconds(500);
 constexpr Duration kReadWait = milliseconds(100), kCommandWait = milliseconds(200);
 /// A sensor that says nothing for so long is opened anew: it may have been restarted, and some need
 /// to be told to speak.
@@ -33,14 +31,6 @@ constexpr Duration kReopenAfter = std::chrono::seconds(2);
 
 SteadyTime now() {
   return std::chrono::steady_clock::now();
-}
-
-/// Waits, unless a stop is requested.
-void wait(Duration duration, const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, duration, [] { return false; });
 }
 
 Result<serial::SerialPort> open_port(const AhrsOptions& options, const std::stop_token& stop) {
@@ -54,6 +44,7 @@ class AhrsSource final : public sensing::AttitudeSource {
       : options_(std::move(options)),
         stop_(std::move(stop)),
         on_outer_stop_(outer, [own = stop_]() mutable { own.request_stop(); }),
+        retry_(stop_.get_token()),
         port_(std::move(port)),
         receiver_(make_decoder(options_.kind), options_.baud),
         thread_([this] { run(); }) {}
@@ -77,8 +68,7 @@ class AhrsSource final : public sensing::AttitudeSource {
     if (port_) begin();
     while (!stop_.stop_requested()) {
       if (port_ ? read() : reopen()) continue;
-      wait(retry_, stop_.get_token());
-      retry_ = std::min(2 * retry_, kLongestRetry);
+      retry_.wait();
     }
     samples_.close();
   }
@@ -115,7 +105,7 @@ class AhrsSource final : public sensing::AttitudeSource {
       spoken_ = spoken;
       spoke_ = true;
       heard_ = now();
-      retry_ = kFirstRetry;
+      retry_.reset();
       told_.clear();
     }
     // What is wrong is known before what it was seen in: nobody uses a reading as a good one. And a
@@ -163,6 +153,7 @@ class AhrsSource final : public sensing::AttitudeSource {
   const AhrsOptions options_;
   std::stop_source stop_;
   std::stop_callback<std::function<void()>> on_outer_stop_;
+  serial::RetryWait retry_;
   std::optional<serial::SerialPort> port_;  ///< empty while it is lost
   LineReceiver receiver_;
   std::vector<LineReceiver::Reading> readings_;
@@ -172,7 +163,6 @@ class AhrsSource final : public sensing::AttitudeSource {
   SteadyTime heard_{};  ///< the last reading, or when the port was opened
   bool spoke_ = false;  ///< since the port was opened
   std::uint64_t spoken_ = 0;
-  Duration retry_ = kFirstRetry;
   std::string told_;
   std::uint64_t damaged_told_ = 0;
   std::jthread thread_;  // last: joined before what it uses goes away

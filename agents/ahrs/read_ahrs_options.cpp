@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "agents/ahrs/ahrs_source.hpp"
+#include "agents/sensing/rotation.hpp"
 
 namespace lifeline::ahrs {
 
@@ -34,9 +35,7 @@ Result<AhrsOptions> read_ahrs_options(const sources::SourceSpec& spec) {
     angles_rad[i] = *angle_deg * std::numbers::pi / 180.0;
   }
   AhrsOptions options{spec.target, *kind, static_cast<int>(*baud), {}};
-  options.R_body_sensor = Eigen::AngleAxisd(angles_rad[2], Eigen::Vector3d::UnitZ()) *
-                          Eigen::AngleAxisd(angles_rad[1], Eigen::Vector3d::UnitY()) *
-                          Eigen::AngleAxisd(angles_rad[0], Eigen::Vector3d::UnitX());
+  options.R_body_sensor = sensing::rotation_zyx(angles_rad[0], angles_rad[1], angles_rad[2]);
   return options;
 }
 

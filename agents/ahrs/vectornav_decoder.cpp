@@ -8,6 +8,7 @@
 
 #include "agents/ahrs/ahrs_decoder.hpp"
 #include "agents/ahrs/fields.hpp"
+#include "agents/sensing/rotation.hpp"
 
 namespace lifeline::ahrs {
 namespace {
@@ -70,13 +71,6 @@ bool is_suffix(std::string_view field) {
   return field.size() > 1 && (field.front() == 'S' || field.front() == 'T');
 }
 
-/// Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Quaterniond turned(double yaw_rad, double pitch_rad, double roll_rad) {
-  return Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
-}
-
 std::optional<Eigen::Quaterniond> orientation(const Sentence& sentence,
                                               std::span<const double> numbers) {
   if (sentence.is_quaternion) {
@@ -87,7 +81,7 @@ std::optional<Eigen::Quaterniond> orientation(const Sentence& sentence,
   for (const double angle_deg : numbers.first(3)) {
     if (std::abs(angle_deg) > 360.0) return std::nullopt;
   }
-  return turned(kDegree * numbers[0], kDegree * numbers[1], kDegree * numbers[2]);
+  return sensing::rotation_zyx(kDegree * numbers[2], kDegree * numbers[1], kDegree * numbers[0]);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "agents/rplidar/line_watch.hpp"
 #include "agents/rplidar/sample_decoder.hpp"
 #include "agents/rplidar/sweep_assembler.hpp"
+#include "agents/serial/retry_wait.hpp"
 #include "common/base/log.hpp"
 #include "common/base/steady_stamp.hpp"
 
@@ -17,9 +18,6 @@ namespace lifeline::rplidar {
 namespace {
 
 using sensing::RawScan;
-using std::chrono::milliseconds;
-
-constexpr Duration kFirstRetry = milliseconds(50), kLongestRetry = milliseconds(500);
 
 SteadyTime now() {
   return std::chrono::steady_clock::now();
@@ -54,7 +52,7 @@ class RplidarSource final : public sensing::ScanSource {
   RplidarSource(std::unique_ptr<Device> device, RplidarOptions options, std::stop_token stop)
       : options_(std::move(options)),
         stop_(stop),
-        stop_event_(stop),
+        retry_(stop),
         device_(std::move(device)),
         wall_minus_steady_(stamp_of(SteadyTime{}).time_since_epoch()),
         left_at_(now()) {}
@@ -63,7 +61,7 @@ class RplidarSource final : public sensing::ScanSource {
     if (scan_) watch_.excuse(now() - left_at_);
     while (sweeps_.empty() && !stop_.stop_requested()) {
       if (scan_ ? read() : start()) continue;
-      wait_to_retry();
+      retry_.wait();
     }
     left_at_ = now();
     if (stop_.stop_requested()) return std::nullopt;
@@ -128,7 +126,7 @@ class RplidarSource final : public sensing::ScanSource {
   }
 
   void tell_of_return() {
-    retry_ = kFirstRetry;
+    retry_.reset();
     if (!lost_at_) return;
     spdlog::info("{}: scans again, after {:.1f} s", options_.device.device,
                  to_seconds(now() - *lost_at_));
@@ -141,11 +139,6 @@ class RplidarSource final : public sensing::ScanSource {
     if (counts.skipped == 0) return;
     spdlog::info("{}: {} of {} bytes could not be used, in {} places", options_.device.device,
                  counts.skipped, counts.bytes, counts.gaps);
-  }
-
-  void wait_to_retry() {
-    stop_event_.wait(retry_);
-    retry_ = std::min(2 * retry_, kLongestRetry);
   }
 
   [[nodiscard]] SweepSettings sweep_settings() const {
@@ -161,7 +154,7 @@ class RplidarSource final : public sensing::ScanSource {
 
   const RplidarOptions options_;
   const std::stop_token stop_;
-  const serial::StopEvent stop_event_;
+  serial::RetryWait retry_;
   std::unique_ptr<Device> device_;   ///< empty while it is lost
   std::optional<RunningScan> scan_;  ///< only with a device
   LineWatch watch_;
@@ -169,7 +162,6 @@ class RplidarSource final : public sensing::ScanSource {
   SteadyTime left_at_;  ///< when next() was last left
   std::vector<Sample> samples_;
   std::deque<RawScan> sweeps_;
-  Duration retry_ = kFirstRetry;
   std::optional<SteadyTime> lost_at_;
   std::string told_;
 };

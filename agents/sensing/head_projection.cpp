@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "agents/sensing/rotation.hpp"
 #include "agents/sensing/sweep_attitude.hpp"
 
 namespace lifeline::sensing {
@@ -29,20 +30,14 @@ struct Ray {
   bool known = true;       ///< else held too steeply: about where it points
 };
 
-/// R_body_laser.
-Eigen::Matrix3d rotation_of(const LidarMount& mount) {
-  return (Eigen::AngleAxisd(mount.yaw_rad, Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(mount.pitch_rad, Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(mount.roll_rad, Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
 /// The lidar as the head holds it in the course of a sweep.
 class HeldLidar {
  public:
   HeldLidar(const RawScan& raw, const ProjectionConfig& config)
       : attitude_(raw, config.max_tilt_rad),
-        R_body_laser_(rotation_of(config.mount)),
+        R_body_laser_(
+            rotation_zyx(config.mount.roll_rad, config.mount.pitch_rad, config.mount.yaw_rad)
+                .toRotationMatrix()),
         lever_body_m_(config.mount.lever_body_m) {
     hold(Duration{0});
   }

@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agents/sensing/rotation.hpp"
+
 namespace lifeline::sensing {
-namespace {
-
-Eigen::AngleAxisd about(double angle_rad, const Eigen::Vector3d& axis) {
-  return Eigen::AngleAxisd(angle_rad, axis);
-}
-
-}  // namespace
 
 SweepAttitude::SweepAttitude(const RawScan& raw, double max_tilt_rad)
     : raw_(raw),
@@ -32,18 +27,13 @@ SweepAttitude::Knot SweepAttitude::knot(std::size_t index) const {
       !(std::abs(attitude.roll_rad) <= max_tilt_rad_) || !std::isfinite(turn_rad)) {
     return {timed.after_stamp, std::nullopt};
   }
-  return {timed.after_stamp,
-          Eigen::Quaterniond(about(turn_rad, Eigen::Vector3d::UnitZ()) *
-                             about(attitude.pitch_rad, Eigen::Vector3d::UnitY()) *
-                             about(attitude.roll_rad, Eigen::Vector3d::UnitX()))};
+  return {timed.after_stamp, rotation_zyx(attitude.roll_rad, attitude.pitch_rad, turn_rad)};
 }
 
 std::optional<Eigen::Matrix3d> SweepAttitude::at(Duration after_stamp) {
   if (constant_) {
     if (!raw_.attitude) return Eigen::Matrix3d::Identity();
-    return (about(raw_.attitude->pitch_rad, Eigen::Vector3d::UnitY()) *
-            about(raw_.attitude->roll_rad, Eigen::Vector3d::UnitX()))
-        .toRotationMatrix();
+    return rotation_zyx(raw_.attitude->roll_rad, raw_.attitude->pitch_rad, 0.0).toRotationMatrix();
   }
   while (after_.after_stamp < after_stamp && next_ < raw_.later_attitudes.size()) {
     before_ = after_;

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "agents/slam/keyframe.hpp"
@@ -74,11 +73,6 @@ class LoopCloser {
   /// due; whether the past has moved: then correction() tells how.
   [[nodiscard]] bool take(Keyframe keyframe);
   [[nodiscard]] MapCorrection correction();
-  /// Both at once.
-  [[nodiscard]] std::optional<MapCorrection> add(Keyframe keyframe) {
-    if (!take(std::move(keyframe))) return std::nullopt;
-    return correction();
-  }
   /// The correction that is due when no more keyframes come: all that is known, and each keyframe
   /// aligned once more with the whole. None where nothing is to be corrected.
   [[nodiscard]] std::optional<MapCorrection> finish();

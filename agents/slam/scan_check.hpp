@@ -27,6 +27,11 @@ struct ScanFaults {
   [[nodiscard]] bool any() const { return frozen || sparse || clock_stood || beams_changed; }
 };
 
+/// Whether less is to be trusted in what a sweep's match says: for the sweep, or for its attitude.
+[[nodiscard]] inline bool is_doubtful(const ScanFaults& faults, const sensing::RawScan& raw) {
+  return faults.any() || raw.attitude_health != sensing::AttitudeHealth::good;
+}
+
 /// Compares each sweep with the ones before. A sweep that repeats the last one to the bit is
 /// believed as long as the head stands still for all that is known. One owner.
 class ScanCheck {

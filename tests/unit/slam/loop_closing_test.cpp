@@ -160,7 +160,7 @@ TEST(LoopCloser, ComingBackCorrectsTheDriftOfTheWholeRound) {
   LoopCloser closer({}, kGeometry, {}, {}, {}, {});
   std::optional<MapCorrection> last;
   for (Keyframe& keyframe : walk.keyframes) {
-    if (auto correction = closer.add(std::move(keyframe))) last = std::move(correction);
+    if (closer.take(std::move(keyframe))) last = closer.correction();
   }
   if (auto correction = closer.finish()) last = std::move(correction);
   ASSERT_TRUE(last.has_value());
@@ -177,7 +177,7 @@ TEST(LoopCloser, AStraightWayHasNoLoops) {
   walk.keyframes.resize(60);  // three sides
   LoopCloser closer({}, kGeometry, {}, {}, {}, {});
   for (Keyframe& keyframe : walk.keyframes) {
-    EXPECT_FALSE(closer.add(std::move(keyframe)).has_value());
+    EXPECT_FALSE(closer.take(std::move(keyframe)));
   }
   EXPECT_EQ(closer.loops(), 0U);
   EXPECT_FALSE(closer.finish().has_value());
@@ -196,7 +196,7 @@ TEST(LoopCloser, AKeyframeThatFitsElsewhereIsMovedInTheEnd) {
   astray.step_covariance = after.step_covariance = diagonal_covariance(0.3, 0.03);
   LoopCloser closer({}, kGeometry, {}, {}, {}, {});
   for (Keyframe& keyframe : walk.keyframes) {
-    EXPECT_FALSE(closer.add(std::move(keyframe)).has_value());
+    EXPECT_FALSE(closer.take(std::move(keyframe)));
   }
   const auto correction = closer.finish();
   ASSERT_TRUE(correction.has_value());
