@@ -59,6 +59,14 @@ Bounds bounds_of(const Message& message) {
   return Bounds(topic_of<Message>().name).add(message.envelope);
 }
 
+template <typename Tile>
+Result<void> tile_bounds(const Tile& message) {
+  return bounds_of(message)
+      .add(message.layer, "layer.agent_id")
+      .at_most(message.payload, kMaxTilePart, "payload")
+      .result();
+}
+
 }  // namespace
 
 Result<void> check_bounds(const HelmetPose& message) {
@@ -73,17 +81,19 @@ Result<void> check_bounds(const HelmetScan& message) {
 }
 
 Result<void> check_bounds(const TsdTile& message) {
-  return bounds_of(message)
-      .add(message.layer, "layer.agent_id")
-      .at_most(message.payload, kMaxTilePart, "payload")
-      .result();
+  return tile_bounds(message);
+}
+
+Result<void> check_bounds(const TileCopy& message) {
+  return tile_bounds(message);
 }
 
 Result<void> check_bounds(const TileRequest& message) {
   return bounds_of(message)
       .at_most(message.requester_id, kMaxIdLength, "requester_id")
+      .at_most(message.asked_id, kMaxIdLength, "asked_id")
       .add(message.layer, "layer.agent_id")
-      .at_most(message.tiles, kMaxTilesPerRequest, "tiles")
+      .at_most(message.held, kMaxTilesPerRequest, "held")
       .result();
 }
 
@@ -93,6 +103,11 @@ Result<void> check_bounds(const MergeDirective& message) {
   bounds.at_most(message.members, kMaxMembers, "members");
   for (const auto& member : message.members) bounds.add(member.layer, "members.layer.agent_id");
   return bounds.result();
+}
+
+Result<void> check_bounds(const DirectiveCopy& message) {
+  if (auto told = check_bounds(message.directive); !told) return told;
+  return bounds_of(message).at_most(message.teller_id, kMaxIdLength, "teller_id").result();
 }
 
 Result<void> check_bounds(const MergeEvidence& message) {

@@ -14,7 +14,9 @@ namespace lifeline::dds {
 [[nodiscard]] Result<void> check_bounds(const wire::HelmetScan& message);
 [[nodiscard]] Result<void> check_bounds(const wire::TsdTile& message);
 [[nodiscard]] Result<void> check_bounds(const wire::TileRequest& message);
+[[nodiscard]] Result<void> check_bounds(const wire::TileCopy& message);
 [[nodiscard]] Result<void> check_bounds(const wire::MergeDirective& message);
+[[nodiscard]] Result<void> check_bounds(const wire::DirectiveCopy& message);
 [[nodiscard]] Result<void> check_bounds(const wire::MergeEvidence& message);
 [[nodiscard]] Result<void> check_bounds(const wire::AgentStatus& message);
 [[nodiscard]] Result<void> check_bounds(const wire::Detection& message);

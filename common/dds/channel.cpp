@@ -15,6 +15,7 @@
 #include "common/dds/participant_core.hpp"
 #include "common/dds/topics.hpp"
 #include "common/dds/type_support.hpp"
+#include "common/wire/limits.hpp"
 
 namespace lifeline::dds {
 namespace {
@@ -40,7 +41,9 @@ class WriterListener final : public fast::DataWriterListener {
                                    const fast::OfferedIncompatibleQosStatus& status) override {
     warn_of_mismatch(topic_of<Message>().name, status.last_policy_id);
   }
-  [[nodiscard]] bool has_reader() const { return readers_.load() > 0; }
+  [[nodiscard]] std::uint64_t readers() const {
+    return static_cast<std::uint64_t>(std::max(readers_.load(), 0));
+  }
 
  private:
   std::atomic<std::int32_t> readers_{0};
@@ -70,11 +73,14 @@ class DdsOutbox final : public wire::Outbox<Message> {
       return fail(ErrorCode::unavailable, "{}: the middleware refused a sample ({})",
                   topic_of<Message>().name, describe(code));
     }
-    core_->bytes_sent += TypeSupportOf<Message>::Idl::getCdrSerializedSize(sample_.value);
+    const std::uint64_t size = TypeSupportOf<Message>::Idl::getCdrSerializedSize(sample_.value);
+    core_->bytes_sent += size;
+    core_->octets_on_air += (size + wire::kOctetsAboutASample) * listener_.readers();
     return {};
   }
 
-  bool has_reader() const override { return listener_.has_reader(); }
+  bool has_reader() const override { return listener_.readers() > 0; }
+  void assert_alive() override { writer_->assert_liveliness(); }
 
  private:
   CorePointer core_;
@@ -204,7 +210,9 @@ LIFELINE_CHANNELS(wire::HelmetPose)
 LIFELINE_CHANNELS(wire::HelmetScan)
 LIFELINE_CHANNELS(wire::TsdTile)
 LIFELINE_CHANNELS(wire::TileRequest)
+LIFELINE_CHANNELS(wire::TileCopy)
 LIFELINE_CHANNELS(wire::MergeDirective)
+LIFELINE_CHANNELS(wire::DirectiveCopy)
 LIFELINE_CHANNELS(wire::MergeEvidence)
 LIFELINE_CHANNELS(wire::AgentStatus)
 LIFELINE_CHANNELS(wire::Detection)

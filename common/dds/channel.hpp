@@ -19,7 +19,7 @@ enum class Standing {
 /// checks the bounds (bad_data) and hands over; it never waits for the network. On destruction the
 /// last samples of a reliable topic are given up to 0.3 s to be acknowledged.
 /// Error: bad_data when the topic's profile contradicts itself, with the profile file.
-/// `Message` is one of the nine of common/wire/messages.hpp.
+/// `Message` is one of the ten of common/wire/messages.hpp.
 template <typename Message>
 [[nodiscard]] Result<std::unique_ptr<wire::Outbox<Message>>> make_outbox(
     Participant& participant, Standing standing = Standing::primary);

@@ -19,7 +19,9 @@ namespace lifeline::dds {
 [[nodiscard]] Result<void> to_idl(const wire::HelmetScan& message, msg::HelmetScan& out);
 [[nodiscard]] Result<void> to_idl(const wire::TsdTile& message, msg::TsdTile& out);
 [[nodiscard]] Result<void> to_idl(const wire::TileRequest& message, msg::TileRequest& out);
+[[nodiscard]] Result<void> to_idl(const wire::TileCopy& message, msg::TileCopy& out);
 [[nodiscard]] Result<void> to_idl(const wire::MergeDirective& message, msg::MergeDirective& out);
+[[nodiscard]] Result<void> to_idl(const wire::DirectiveCopy& message, msg::DirectiveCopy& out);
 [[nodiscard]] Result<void> to_idl(const wire::MergeEvidence& message, msg::MergeEvidence& out);
 [[nodiscard]] Result<void> to_idl(const wire::AgentStatus& message, msg::AgentStatus& out);
 [[nodiscard]] Result<void> to_idl(const wire::Detection& message, msg::Detection& out);
@@ -29,7 +31,9 @@ namespace lifeline::dds {
 [[nodiscard]] wire::HelmetScan from_idl(const msg::HelmetScan& sample);
 [[nodiscard]] wire::TsdTile from_idl(const msg::TsdTile& sample);
 [[nodiscard]] wire::TileRequest from_idl(const msg::TileRequest& sample);
+[[nodiscard]] wire::TileCopy from_idl(const msg::TileCopy& sample);
 [[nodiscard]] wire::MergeDirective from_idl(const msg::MergeDirective& sample);
+[[nodiscard]] wire::DirectiveCopy from_idl(const msg::DirectiveCopy& sample);
 [[nodiscard]] wire::MergeEvidence from_idl(const msg::MergeEvidence& sample);
 [[nodiscard]] wire::AgentStatus from_idl(const msg::AgentStatus& sample);
 [[nodiscard]] wire::Detection from_idl(const msg::Detection& sample);

@@ -74,6 +74,19 @@ wire::MergeDirective from_idl(const msg::MergeDirective& sample) {
   return message;
 }
 
+Result<void> to_idl(const wire::DirectiveCopy& message, msg::DirectiveCopy& out) {
+  if (const auto checked = check_bounds(message); !checked) return checked;
+  parts::to_idl(message.envelope, out.envelope());
+  out.teller_id(parts::to_name(message.teller_id));
+  return to_idl(message.directive, out.directive());
+}
+
+wire::DirectiveCopy from_idl(const msg::DirectiveCopy& sample) {
+  return {.envelope = parts::from_idl(sample.envelope()),
+          .teller_id = sample.teller_id().to_string(),
+          .directive = from_idl(sample.directive())};
+}
+
 // Both layers' names are the key, and keys must be flat.
 Result<void> to_idl(const wire::MergeEvidence& message, msg::MergeEvidence& out) {
   if (const auto checked = check_bounds(message); !checked) return checked;

@@ -10,6 +10,7 @@ static_assert(static_cast<int>(wire::AgentState::starting) == msg::STATE_STARTIN
 static_assert(static_cast<int>(wire::AgentState::finished) == msg::STATE_FINISHED);
 static_assert(static_cast<int>(wire::SensorHealth::good) == msg::HEALTH_GOOD);
 static_assert(static_cast<int>(wire::SensorHealth::failed) == msg::HEALTH_FAILED);
+static_assert(static_cast<int>(wire::RecordingState::failing) == msg::RECORDING_FAILING);
 static_assert(static_cast<int>(wire::DetectionKind::uwb_tag) == msg::DETECTION_UWB_TAG);
 static_assert(static_cast<int>(wire::DetectionState::rescued) == msg::DETECTION_RESCUED);
 static_assert(static_cast<int>(wire::AlertKind::roll_call) == msg::ALERT_ROLL_CALL);
@@ -49,6 +50,8 @@ Result<void> to_idl(const wire::AgentStatus& message, msg::AgentStatus& out) {
   out.bytes_sent(message.bytes_sent);
   out.bytes_queued(message.bytes_queued);
   out.tiles_behind(message.tiles_behind);
+  out.recording(parts::to_idl_enum<msg::RecordingState>(message.recording));
+  out.samples_unrecorded(message.samples_unrecorded);
   out.explored_m2(message.explored_m2);
   out.slam_ms_median(message.slam_ms_median);
   out.epoch_applied(message.epoch_applied);
@@ -60,30 +63,33 @@ Result<void> to_idl(const wire::AgentStatus& message, msg::AgentStatus& out) {
 }
 
 wire::AgentStatus from_idl(const msg::AgentStatus& sample) {
-  wire::AgentStatus message{.envelope = parts::from_idl(sample.envelope()),
-                            .agent_id = sample.agent_id().to_string(),
-                            .role = parts::to_wire_enum<wire::Role>(sample.role()),
-                            .state = parts::to_wire_enum<wire::AgentState>(sample.state()),
-                            .lidar = parts::to_wire_enum<wire::SensorHealth>(sample.lidar()),
-                            .attitude = parts::to_wire_enum<wire::SensorHealth>(sample.attitude()),
-                            .battery_percent = sample.battery_percent(),
-                            .duplicate_id_heard = sample.duplicate_id_heard(),
-                            .map_id = sample.map_id(),
-                            .floor = sample.floor(),
-                            .scans = sample.scans(),
-                            .scans_dropped = sample.scans_dropped(),
-                            .failures = sample.failures(),
-                            .samples_refused = sample.samples_refused(),
-                            .bytes_sent = sample.bytes_sent(),
-                            .bytes_queued = sample.bytes_queued(),
-                            .tiles_behind = sample.tiles_behind(),
-                            .explored_m2 = sample.explored_m2(),
-                            .slam_ms_median = sample.slam_ms_median(),
-                            .epoch_applied = sample.epoch_applied(),
-                            .fingerprint = sample.fingerprint(),
-                            .common_map_sha256 = sample.common_map_sha256(),
-                            .layers = {},
-                            .peers_heard = parts::from_idl(sample.peers_heard())};
+  wire::AgentStatus message{
+      .envelope = parts::from_idl(sample.envelope()),
+      .agent_id = sample.agent_id().to_string(),
+      .role = parts::to_wire_enum<wire::Role>(sample.role()),
+      .state = parts::to_wire_enum<wire::AgentState>(sample.state()),
+      .lidar = parts::to_wire_enum<wire::SensorHealth>(sample.lidar()),
+      .attitude = parts::to_wire_enum<wire::SensorHealth>(sample.attitude()),
+      .battery_percent = sample.battery_percent(),
+      .duplicate_id_heard = sample.duplicate_id_heard(),
+      .map_id = sample.map_id(),
+      .floor = sample.floor(),
+      .scans = sample.scans(),
+      .scans_dropped = sample.scans_dropped(),
+      .failures = sample.failures(),
+      .samples_refused = sample.samples_refused(),
+      .bytes_sent = sample.bytes_sent(),
+      .bytes_queued = sample.bytes_queued(),
+      .tiles_behind = sample.tiles_behind(),
+      .recording = parts::to_wire_enum<wire::RecordingState>(sample.recording()),
+      .samples_unrecorded = sample.samples_unrecorded(),
+      .explored_m2 = sample.explored_m2(),
+      .slam_ms_median = sample.slam_ms_median(),
+      .epoch_applied = sample.epoch_applied(),
+      .fingerprint = sample.fingerprint(),
+      .common_map_sha256 = sample.common_map_sha256(),
+      .layers = {},
+      .peers_heard = parts::from_idl(sample.peers_heard())};
   message.layers.reserve(sample.layers().size());
   for (const auto& digest : sample.layers()) {
     message.layers.push_back({parts::from_idl(digest.layer()), digest.tiles(), digest.revisions()});
@@ -96,6 +102,7 @@ Result<void> to_idl(const wire::Detection& message, msg::Detection& out) {
   parts::to_idl(message.envelope, out.envelope());
   out.agent_id(parts::to_name(message.agent_id));
   out.detection_id(message.detection_id);
+  out.revision(message.revision);
   out.map_id(message.map_id);
   out.floor(message.floor);
   out.kind(parts::to_idl_enum<msg::DetectionKind>(message.kind));
@@ -103,6 +110,7 @@ Result<void> to_idl(const wire::Detection& message, msg::Detection& out) {
   out.x_m(message.x_m);
   out.y_m(message.y_m);
   out.confidence(message.confidence);
+  out.first_seen_at_ns(message.first_seen_at_ns);
   out.seen_at_ns(message.seen_at_ns);
   return {};
 }
@@ -111,6 +119,7 @@ wire::Detection from_idl(const msg::Detection& sample) {
   return {.envelope = parts::from_idl(sample.envelope()),
           .agent_id = sample.agent_id().to_string(),
           .detection_id = sample.detection_id(),
+          .revision = sample.revision(),
           .map_id = sample.map_id(),
           .floor = sample.floor(),
           .kind = parts::to_wire_enum<wire::DetectionKind>(sample.kind()),
@@ -118,6 +127,7 @@ wire::Detection from_idl(const msg::Detection& sample) {
           .x_m = sample.x_m(),
           .y_m = sample.y_m(),
           .confidence = sample.confidence(),
+          .first_seen_at_ns = sample.first_seen_at_ns(),
           .seen_at_ns = sample.seen_at_ns()};
 }
 

@@ -37,6 +37,16 @@ void open_inbox(Participant& participant, std::unique_ptr<wire::Inbox<Message>>&
   }
 }
 
+/// Opens the four ends by which missing tiles are asked for and sent again
+/// (sharing::ExchangeChannels).
+template <typename Exchange>
+void open_exchange(Participant& participant, Exchange& exchange, Result<void>& all) {
+  open_outbox(participant, exchange.ask, all);
+  open_inbox(participant, exchange.asked, all);
+  open_outbox(participant, exchange.send, all);
+  open_inbox(participant, exchange.sent, all);
+}
+
 /// Which QoS file a program takes: the one given on its command line; else the one its
 /// configuration names, beside that file; else the one of that name in the shipped configuration
 /// folder.

@@ -5,7 +5,7 @@
 namespace lifeline::dds {
 
 Result<std::unique_ptr<Participant>> Participant::create(const ParticipantOptions& options) {
-  auto core = ParticipantCore::create(options);
+  auto core = ParticipantCore::create(options, mission_profiles());
   if (!core) return forward_error(core);
   return std::unique_ptr<Participant>(new Participant(std::move(*core)));
 }
@@ -19,6 +19,10 @@ bool Participant::wait_for_data(Duration timeout) {
 void Participant::wake() {
   core_->doorbell.ring();
 }
+std::uint64_t Participant::octets_on_air() const {
+  return core_->octets_on_air.load();
+}
+
 std::uint64_t Participant::bytes_sent() const {
   return core_->bytes_sent.load();
 }

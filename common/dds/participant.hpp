@@ -42,6 +42,9 @@ class Participant {
   /// Serialised size of all samples that outboxes handed to the middleware, once each: without RTPS
   /// headers, heartbeats, repairs and copies for several readers.
   [[nodiscard]] std::uint64_t bytes_sent() const;
+  /// About what that made on the network: headers, and once for each reader; without heartbeats and
+  /// repairs, which only an interface's own counter shows.
+  [[nodiscard]] std::uint64_t octets_on_air() const;
 
   /// For make_outbox() and make_inbox().
   [[nodiscard]] const std::shared_ptr<ParticipantCore>& core() const { return core_; }

@@ -1,10 +1,6 @@
 #include "common/dds/participant_core.hpp"
 
-#include <tuple>
-
 #include "common/dds/middleware_log.hpp"
-#include "common/dds/qos_profiles.hpp"
-#include "common/dds/topics.hpp"
 
 namespace lifeline::dds {
 namespace {
@@ -40,32 +36,36 @@ bool Doorbell::wait(Duration timeout) {
 }
 
 Result<std::shared_ptr<ParticipantCore>> ParticipantCore::create(
-    const ParticipantOptions& options) {
+    const ParticipantOptions& options, const ProfileNames& names,
+    fast::DomainParticipantListener* listener) {
   if (options.domain_id > kMaxDomainId) {
     return fail(ErrorCode::wrong_use, "domain {} does not exist; DDS has domains 0 to {}",
                 options.domain_id, kMaxDomainId);
   }
   route_middleware_log();
   auto core = std::make_shared<ParticipantCore>();
-  const auto opened = core->open(options);
+  const auto opened = core->open(options, names, listener);
   if (!opened) return forward_error(opened);
   return core;
 }
 
-Result<void> ParticipantCore::open(const ParticipantOptions& options) {
+Result<void> ParticipantCore::open(const ParticipantOptions& options, const ProfileNames& names,
+                                   fast::DomainParticipantListener* listener) {
   const std::lock_guard lock(profiles_mutex());
   const LogCapture capture;
   file_ = options.qos_profiles.string();
-  if (const auto loaded = load_qos_profiles(options.qos_profiles, capture); !loaded) return loaded;
+  const auto loaded = load_qos_profiles(options.qos_profiles, names, capture);
+  if (!loaded) return loaded;
 
   fast::DomainParticipantQos qos;
-  auto code = factory().get_participant_qos_from_profile(std::string(kParticipantProfile), qos);
+  auto code = factory().get_participant_qos_from_profile(names.participant, qos);
   if (!is_ok(code)) {
-    return fail(ErrorCode::bad_data, "{}: participant profile '{}': {}", file_, kParticipantProfile,
+    return fail(ErrorCode::bad_data, "{}: participant profile '{}': {}", file_, names.participant,
                 describe(code));
   }
   qos.name(options.name);
-  participant_ = factory().create_participant(options.domain_id, qos);
+  participant_ =
+      factory().create_participant(options.domain_id, qos, listener, fast::StatusMask::none());
   if (participant_ == nullptr) {
     return fail(ErrorCode::unavailable, "cannot join DDS domain {} with {}: {}", options.domain_id,
                 file_, reason_of(capture, "Fast DDS does not say why"));
@@ -78,25 +78,21 @@ Result<void> ParticipantCore::open(const ParticipantOptions& options) {
     return fail(ErrorCode::unavailable, "cannot publish or subscribe in DDS domain {}: {}",
                 options.domain_id, reason_of(capture, "Fast DDS does not say why"));
   }
-  return copy_profiles(file_);
+  return copy_profiles(names);
 }
 
-Result<void> ParticipantCore::copy_profiles(const std::string& file) {
+Result<void> ParticipantCore::copy_profiles(const ProfileNames& names) {
   std::string missing;
-  const auto copy = [&](const auto& topic) {
-    for (const auto name : {topic.writer_profile, topic.standby_profile}) {
-      if (name.empty()) continue;
-      const std::string profile(name);
-      auto& qos = writer_qos_[profile];
-      if (!is_ok(publisher_->get_datawriter_qos_from_profile(profile, qos))) missing = profile;
-    }
-    const std::string profile(topic.reader_profile);
-    auto& qos = reader_qos_[profile];
-    if (!is_ok(subscriber_->get_datareader_qos_from_profile(profile, qos))) missing = profile;
-  };
-  std::apply([&](const auto&... topics) { (copy(topics), ...); }, kTopics);
+  for (const std::string& name : names.writers) {
+    auto& qos = writer_qos_[name];
+    if (!is_ok(publisher_->get_datawriter_qos_from_profile(name, qos))) missing = name;
+  }
+  for (const std::string& name : names.readers) {
+    auto& qos = reader_qos_[name];
+    if (!is_ok(subscriber_->get_datareader_qos_from_profile(name, qos))) missing = name;
+  }
   if (missing.empty()) return {};
-  return fail(ErrorCode::bad_data, "{}: profile '{}' cannot be read", file, missing);
+  return fail(ErrorCode::bad_data, "{}: profile '{}' cannot be read", file_, missing);
 }
 
 ParticipantCore::~ParticipantCore() {

@@ -13,6 +13,7 @@
 #include "common/base/result.hpp"
 #include "common/dds/fastdds_version.hpp"
 #include "common/dds/participant.hpp"
+#include "common/dds/qos_profiles.hpp"
 
 namespace lifeline::dds {
 
@@ -31,8 +32,11 @@ class Doorbell {
 
 class ParticipantCore {
  public:
+  /// `names`: the profiles it is to be made of. `listener`, which hears of the participants and
+  /// endpoints of others, must outlive it.
   [[nodiscard]] static Result<std::shared_ptr<ParticipantCore>> create(
-      const ParticipantOptions& options);
+      const ParticipantOptions& options, const ProfileNames& names,
+      fast::DomainParticipantListener* listener = nullptr);
   ParticipantCore() = default;
   ~ParticipantCore();
   ParticipantCore(const ParticipantCore&) = delete;
@@ -40,7 +44,7 @@ class ParticipantCore {
 
   /// The topic of that name, made (and its type registered) on first use.
   [[nodiscard]] Result<fast::Topic*> topic(std::string_view name, const fast::TypeSupport& type);
-  /// An enabled writer. `profile` is one of topics.hpp.
+  /// An enabled writer. `profile` is one of those it was created with.
   [[nodiscard]] Result<fast::DataWriter*> make_writer(fast::Topic* topic, std::string_view profile,
                                                       fast::DataWriterListener* listener);
   /// A reader that is not yet enabled: nothing arrives before its owner is ready.
@@ -54,10 +58,12 @@ class ParticipantCore {
 
   Doorbell doorbell;
   std::atomic<std::uint64_t> bytes_sent{0};
+  std::atomic<std::uint64_t> octets_on_air{0};
 
  private:
-  [[nodiscard]] Result<void> open(const ParticipantOptions& options);
-  [[nodiscard]] Result<void> copy_profiles(const std::string& file);
+  [[nodiscard]] Result<void> open(const ParticipantOptions& options, const ProfileNames& names,
+                                  fast::DomainParticipantListener* listener);
+  [[nodiscard]] Result<void> copy_profiles(const ProfileNames& names);
 
   std::string file_;
   std::map<std::string, fast::DataWriterQos, std::less<>> writer_qos_;

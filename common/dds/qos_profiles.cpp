@@ -89,26 +89,29 @@ Result<void> require(bool present, const std::filesystem::path& file, std::strin
   return fail(ErrorCode::bad_data, "{}: {} profile '{}' is missing", file.string(), kind, profile);
 }
 
-/// The profiles of one topic.
-template <typename Message>
-Result<void> require_profiles(const TopicRow<Message>& topic, const std::filesystem::path& file) {
-  for (const auto name : {topic.writer_profile, topic.standby_profile}) {
-    if (name.empty()) continue;
-    const auto found = require(xml::has_writer(std::string(name)), file, "publisher", name);
-    if (!found) return found;
+Result<void> require_all(const ProfileNames& names, const std::filesystem::path& file) {
+  auto result =
+      require(xml::has_participant(names.participant), file, "participant", names.participant);
+  for (const std::string& name : names.writers) {
+    if (result) result = require(xml::has_writer(name), file, "publisher", name);
   }
-  return require(xml::has_reader(std::string(topic.reader_profile)), file, "subscriber",
-                 topic.reader_profile);
+  for (const std::string& name : names.readers) {
+    if (result) result = require(xml::has_reader(name), file, "subscriber", name);
+  }
+  return result;
 }
 
-Result<void> require_all_profiles(const std::filesystem::path& file) {
-  auto result = require(xml::has_participant(std::string(kParticipantProfile)), file, "participant",
-                        kParticipantProfile);
-  const auto check = [&](const auto& topic) {
-    if (result) result = require_profiles(topic, file);
+ProfileNames names_of_topics() {
+  ProfileNames names;
+  names.participant = kParticipantProfile;
+  const auto add = [&](const auto& topic) {
+    for (const auto name : {topic.writer_profile, topic.standby_profile}) {
+      if (!name.empty()) names.writers.emplace_back(name);
+    }
+    names.readers.emplace_back(topic.reader_profile);
   };
-  std::apply([&](const auto&... topics) { (check(topics), ...); }, kTopics);
-  return result;
+  std::apply([&](const auto&... topics) { (add(topics), ...); }, kTopics);
+  return names;
 }
 
 }  // namespace
@@ -118,7 +121,13 @@ std::mutex& profiles_mutex() {
   return mutex;
 }
 
-Result<void> load_qos_profiles(const std::filesystem::path& file, const LogCapture& capture) {
+const ProfileNames& mission_profiles() {
+  static const ProfileNames names = names_of_topics();
+  return names;
+}
+
+Result<void> load_qos_profiles(const std::filesystem::path& file, const ProfileNames& names,
+                               const LogCapture& capture) {
   tinyxml2::XMLDocument document;
   if (const auto parsed = parse(file, document); !parsed) return parsed;
   xml::forget_profiles();
@@ -132,7 +141,7 @@ Result<void> load_qos_profiles(const std::filesystem::path& file, const LogCaptu
     return fail(ErrorCode::bad_data, "{}{}: {}", file.string(),
                 line ? fmt::format(":{}", *line) : "", reason);
   }
-  return require_all_profiles(file);
+  return require_all(names, file);
 }
 
 }  // namespace lifeline::dds

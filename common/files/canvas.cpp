@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
 #include <cairo.h>
 
 #include "common/base/check.hpp"
@@ -15,6 +17,18 @@ cairo_status_t append(void* text, const unsigned char* octets, unsigned int coun
   return CAIRO_STATUS_SUCCESS;
 }
 
+cairo_surface_t* make_surface(DrawingFormat format, int width, int height, std::string* content) {
+  switch (format) {
+    case DrawingFormat::svg:
+      return cairo_svg_surface_create_for_stream(append, content, width, height);
+    case DrawingFormat::pdf:
+      return cairo_pdf_surface_create_for_stream(append, content, width, height);
+    case DrawingFormat::png:
+      break;
+  }
+  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+}
+
 }  // namespace
 
 void Canvas::Free::operator()(cairo_t* context) const {
@@ -24,8 +38,12 @@ void Canvas::Free::operator()(cairo_surface_t* surface) const {
   cairo_surface_destroy(surface);
 }
 
-Canvas::Canvas(int width_px, int height_px, Colour ground)
-    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px)),
+Canvas::Canvas(int width_px, int height_px, Colour ground, DrawingFormat format)
+    : format_(format),
+      ground_(ground),
+      width_(width_px),
+      height_(height_px),
+      surface_(make_surface(format, width_px, height_px, &content_)),
       context_(cairo_create(surface_.get())) {
   cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
@@ -39,6 +57,16 @@ void Canvas::enter(double x, double y, double width, double height) {
   cairo_rectangle(context_.get(), x, y, width, height);
   cairo_clip(context_.get());
   cairo_translate(context_.get(), x, y);
+}
+
+void Canvas::enter_scaled(double x, double y, double width, double height, double times) {
+  enter(x, y, width, height);
+  cairo_scale(context_.get(), times, times);
+}
+
+void Canvas::new_page() {
+  cairo_show_page(context_.get());
+  fill_rectangle(0.0, 0.0, width_, height_, ground_);
 }
 
 void Canvas::leave() {
@@ -134,7 +162,7 @@ void Canvas::pixels(double x, double y, int width, int height,
       cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height));
   LIFELINE_CHECK(colours.size() ==
                  static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  if (cairo_surface_status(image.get()) != CAIRO_STATUS_SUCCESS) return;  // to_png() tells it
+  if (cairo_surface_status(image.get()) != CAIRO_STATUS_SUCCESS) return;  // finish() tells it
   cairo_surface_flush(image.get());
   unsigned char* const data = cairo_image_surface_get_data(image.get());
   const int stride = cairo_image_surface_get_stride(image.get());
@@ -148,20 +176,25 @@ void Canvas::pixels(double x, double y, int width, int height,
   }
   cairo_surface_mark_dirty(image.get());
   cairo_set_source_surface(context_.get(), image.get(), x, y);
+  // Enlarged, a cell stays a square.
+  if (format_ != DrawingFormat::png)
+    cairo_pattern_set_filter(cairo_get_source(context_.get()), CAIRO_FILTER_NEAREST);
   cairo_paint(context_.get());
 }
 
-Result<std::string> Canvas::to_png() {
-  std::string content;
+Result<std::string> Canvas::finish() {
   cairo_status_t status = cairo_status(context_.get());
-  if (status == CAIRO_STATUS_SUCCESS) {
-    status = cairo_surface_write_to_png_stream(surface_.get(), append, &content);
+  if (status == CAIRO_STATUS_SUCCESS && format_ == DrawingFormat::png) {
+    status = cairo_surface_write_to_png_stream(surface_.get(), append, &content_);
+  } else if (status == CAIRO_STATUS_SUCCESS) {
+    cairo_surface_finish(surface_.get());
+    status = cairo_surface_status(surface_.get());
   }
   if (status != CAIRO_STATUS_SUCCESS) {
     return fail(ErrorCode::unavailable, "the picture cannot be drawn ({})",
                 cairo_status_to_string(status));
   }
-  return content;
+  return std::move(content_);
 }
 
 }  // namespace lifeline::files

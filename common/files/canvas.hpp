@@ -18,10 +18,14 @@ namespace lifeline::files {
 /// 0xRRGGBB
 using Colour = std::uint32_t;
 
-/// A picture to draw on, in pixels from the upper left corner, y down. Fonts are DejaVu Sans.
+/// What a drawing becomes: dots, or lines and letters that can be enlarged.
+enum class DrawingFormat { png, svg, pdf };
+
+/// A picture to draw on, in pixels (of a PDF: points of 1/72 inch) from the upper left corner, y
+/// down. Fonts are DejaVu Sans.
 class Canvas {
  public:
-  Canvas(int width_px, int height_px, Colour ground);
+  Canvas(int width_px, int height_px, Colour ground, DrawingFormat format = DrawingFormat::png);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -30,6 +34,10 @@ class Canvas {
   /// leave().
   void enter(double x, double y, double width, double height);
   void leave();
+  /// The same within a part of the canvas on which `times` of its own units make one drawn here.
+  void enter_scaled(double x, double y, double width, double height, double times);
+  /// Ends a page of a PDF; what follows stands on the next one.
+  void new_page();
 
   void fill_rectangle(double x, double y, double width, double height, Colour colour);
   /// Parallel lines across a rectangle, from lower left to upper right.
@@ -54,13 +62,17 @@ class Canvas {
   void pixels(double x, double y, int width, int height,
               const std::vector<std::optional<Colour>>& colours);
 
-  /// The picture as a PNG file's content.
-  [[nodiscard]] Result<std::string> to_png();
+  /// The whole drawing as a file's content. Once: nothing can be drawn afterwards.
+  [[nodiscard]] Result<std::string> finish();
 
  private:
   void use(Colour colour, double opacity = 1.0);
   void use(const TextStyle& style);
 
+  DrawingFormat format_;
+  Colour ground_;
+  int width_, height_;
+  std::string content_;  ///< of a drawing in lines, as it is made
   struct Free {
     void operator()(cairo_t* context) const;
     void operator()(cairo_surface_t* surface) const;

@@ -86,14 +86,15 @@ class Sheet {
     height_ = map_y_ + map_height_ + 3.5 * size_;
   }
 
-  Result<std::string> draw() {
-    Canvas canvas(static_cast<int>(width_), static_cast<int>(height_), kPage);
+  [[nodiscard]] double width() const { return width_; }
+  [[nodiscard]] double height() const { return height_; }
+
+  void draw(Canvas& canvas) const {
     const Canvas::TextStyle style{1.35 * size_, true, kInk};
     canvas.text(size_, 2.0 * size_, canvas.fitted(title_, width_ - 2.0 * size_, style), style);
     draw_legend(canvas);
     draw_map(canvas);
     draw_foot(canvas);
-    return canvas.to_png();
   }
 
  private:
@@ -227,10 +228,24 @@ class Sheet {
 }  // namespace
 
 Result<void> write_map_picture(const std::filesystem::path& file, const OccupancyGrid& grid,
-                               const std::vector<PicturePath>& paths, const std::string& title) {
-  const auto png = Sheet(grid, paths, title).draw();
-  if (!png) return fail(png.error().code, "{}: {}", file.string(), png.error().text);
-  return write_file_atomically(file, *png);
+                               const std::vector<PicturePath>& paths, const std::string& title,
+                               DrawingFormat format) {
+  const Sheet sheet(grid, paths, title);
+  Canvas canvas(static_cast<int>(sheet.width()), static_cast<int>(sheet.height()), kPage, format);
+  sheet.draw(canvas);
+  const auto content = canvas.finish();
+  if (!content) return fail(content.error().code, "{}: {}", file.string(), content.error().text);
+  return write_file_atomically(file, *content);
+}
+
+double draw_map_picture(Canvas& canvas, const PictureFrame& frame, const OccupancyGrid& grid,
+                        const std::vector<PicturePath>& paths, const std::string& title) {
+  const Sheet sheet(grid, paths, title);
+  const double times = std::min(frame.width / sheet.width(), frame.height / sheet.height());
+  canvas.enter_scaled(frame.x, frame.y, frame.width, frame.height, times);
+  sheet.draw(canvas);
+  canvas.leave();
+  return times * sheet.height();
 }
 
 }  // namespace lifeline::files

@@ -45,6 +45,19 @@ wire::LayerName to_layer_name(const LayerKey& key) {
   return {key.agent_id.text(), key.map_id.value, key.floor.value};
 }
 
+Result<LayerKey> check_pose(const wire::HelmetPose& pose, std::string_view mission_id) {
+  if (auto accepted = check_envelope(pose.envelope, mission_id); !accepted)
+    return forward_error(accepted);
+  if (pose.envelope.sender_id != pose.agent_id || !pose.T_map_head.is_finite())
+    return fail(ErrorCode::bad_data, "pose is not finite, or not its sender's");
+  return to_layer_key({pose.agent_id, pose.map_id, pose.floor});
+}
+
+bool is_believable(Epoch heard, Epoch known) {
+  constexpr std::uint64_t kMaxLead = 1'000'000;
+  return heard <= known || heard.value - known.value <= kMaxLead;
+}
+
 Result<void> check_directive(const wire::MergeDirective& directive) {
   if (directive.members.size() > wire::kMaxMembers || directive.own_weight_permille > 1000) {
     return fail(ErrorCode::bad_data,

@@ -18,9 +18,18 @@ namespace lifeline::sharing {
 [[nodiscard]] Result<LayerKey> to_layer_key(const wire::LayerName& name);
 [[nodiscard]] wire::LayerName to_layer_name(const LayerKey& key);
 
+/// Checks envelope, name, sender and numbers of a helmet's pose; the layer in whose map frame it
+/// lies.
+[[nodiscard]] Result<LayerKey> check_pose(const wire::HelmetPose& pose,
+                                          std::string_view mission_id);
+
 /// Checks what a directive claims: members at most, each a valid layer that stands in it once,
 /// rotations that are rotations (cos^2 + sin^2 = 1 within 1e-6), translations within 2 km, w_T1 in
 /// [0, 1].
 [[nodiscard]] Result<void> check_directive(const wire::MergeDirective& directive);
+
+/// Whether an epoch that somebody speaks of can be true for who knows `known`: no mission has a
+/// million directives, and an epoch far ahead would shut up every coordinator there is.
+[[nodiscard]] bool is_believable(Epoch heard, Epoch known);
 
 }  // namespace lifeline::sharing

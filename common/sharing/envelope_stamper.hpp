@@ -20,7 +20,9 @@ struct Speaker {
 /// Fills the envelopes of one topic's samples: same speaker, growing sequence.
 class EnvelopeStamper {
  public:
-  explicit EnvelopeStamper(Speaker speaker) : speaker_(std::move(speaker)) {}
+  /// `said`: samples that the speaker has sent before under this incarnation.
+  explicit EnvelopeStamper(Speaker speaker, std::uint64_t said = 0)
+      : speaker_(std::move(speaker)), sequence_(said) {}
 
   [[nodiscard]] wire::Envelope next(Timestamp now) {
     wire::Envelope envelope;
@@ -34,7 +36,7 @@ class EnvelopeStamper {
 
  private:
   Speaker speaker_;
-  std::uint64_t sequence_ = 0;
+  std::uint64_t sequence_;
 };
 
 }  // namespace lifeline::sharing

@@ -20,4 +20,10 @@ Pose2 to_pose(const wire::FixedTransform& T_a_b) {
           std::atan2(static_cast<double>(T_a_b.sin_q30), static_cast<double>(T_a_b.cos_q30))};
 }
 
+PointUm transform(const wire::FixedTransform& T_a_b, PointUm p_b) {
+  constexpr std::int64_t kHalf = std::int64_t{1} << 29;
+  return {((T_a_b.cos_q30 * p_b.x - T_a_b.sin_q30 * p_b.y + kHalf) >> 30) + T_a_b.x_um,
+          ((T_a_b.sin_q30 * p_b.x + T_a_b.cos_q30 * p_b.y + kHalf) >> 30) + T_a_b.y_um};
+}
+
 }  // namespace lifeline::sharing

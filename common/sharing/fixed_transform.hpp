@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "common/grid/pose2.hpp"
 #include "common/wire/messages.hpp"
 
@@ -11,5 +13,15 @@ namespace lifeline::sharing {
 
 /// For drawing and for matching, where the last bit does not matter.
 [[nodiscard]] Pose2 to_pose(const wire::FixedTransform& T_a_b);
+
+/// A point in whole micrometres.
+struct PointUm {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+};
+
+/// The point in frame a, to the bit the same on every machine. For points and transforms within 2
+/// km of their origin (check_directive).
+[[nodiscard]] PointUm transform(const wire::FixedTransform& T_a_b, PointUm p_b);
 
 }  // namespace lifeline::sharing

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/sharing/fixed_transform.hpp"
+
 namespace lifeline::sharing {
 namespace {
 
@@ -10,10 +12,6 @@ constexpr std::int64_t kFractionOne = 1 << kFractionBits;
 constexpr std::int64_t kMassOne =
     kFractionOne * kFractionOne;  // of the four bilinear shares together
 constexpr std::int64_t kRoundQ30 = std::int64_t{1} << 29;
-
-struct PointUm {
-  std::int64_t x, y;
-};
 
 struct Sums {
   std::array<std::int64_t, kTileCells> weighted_tsd;
@@ -89,11 +87,6 @@ void add_member(TileIndex index, const FusedMember& member, std::int64_t cell_um
       add_sample(layer, p_layer, cell_um, sums.weighted_tsd[offset], sums.weight[offset]);
     }
   }
-}
-
-PointUm transform(const wire::FixedTransform& T_a_b, PointUm p_b) {
-  return {((T_a_b.cos_q30 * p_b.x - T_a_b.sin_q30 * p_b.y + kRoundQ30) >> 30) + T_a_b.x_um,
-          ((T_a_b.sin_q30 * p_b.x + T_a_b.cos_q30 * p_b.y + kRoundQ30) >> 30) + T_a_b.y_um};
 }
 
 }  // namespace

@@ -20,12 +20,20 @@ RevisionDigest first_half(const Sha256Digest& digest) {
 }  // namespace
 
 Result<Applied> ReplicaStore::apply(const wire::TsdTile& sample) {
-  auto key = to_layer_key(sample.layer);
-  if (!key) return forward_error(key);
   if (sample.envelope.sender_id != sample.layer.agent_id) {
     return fail(ErrorCode::bad_data, "{} sent a tile of {}'s layer; only own layers are published",
                 sample.envelope.sender_id, sample.layer.agent_id);
   }
+  return take_in(sample);
+}
+
+Result<Applied> ReplicaStore::apply(const wire::TileCopy& copy) {
+  return take_in(copy);
+}
+
+Result<Applied> ReplicaStore::take_in(const wire::TsdTile& sample) {
+  auto key = to_layer_key(sample.layer);
+  if (!key) return forward_error(key);
   const TileIndex tile{sample.tile_x, sample.tile_y};
   if (auto within = check_limits(*key, tile); !within) return forward_error(within);
   if (sample.revision == 0) {
@@ -43,7 +51,18 @@ Result<Applied> ReplicaStore::apply(const wire::TsdTile& sample) {
   if (!*cells) return Applied::part;
   layers_[*key][tile] = {revision, std::make_shared<const QuantisedTile>(**cells)};
   changed_.push_back({*key, tile});
+  if (listener_) listener_(*key, tile, layers_[*key][tile]);
   return Applied::newer;
+}
+
+Result<void> ReplicaStore::restore(const LayerKey& layer, TileIndex tile, ReplicaTile held) {
+  LIFELINE_CHECK(held.cells != nullptr);
+  if (auto within = check_limits(layer, tile); !within) return within;
+  ReplicaTile& now = layers_[layer][tile];
+  if (now.revision >= held.revision) return {};
+  now = std::move(held);
+  changed_.push_back({layer, tile});
+  return {};
 }
 
 Result<std::optional<QuantisedTile>> ReplicaStore::join(const ChangedTile& tile,
@@ -57,8 +76,8 @@ Result<std::optional<QuantisedTile>> ReplicaStore::join(const ChangedTile& tile,
   auto whole = parts->second.add(sample);
   if (!whole && is_first) incomplete_.erase(parts);
   if (!whole) return forward_error(whole);
+  if (parts->second.empty()) incomplete_.erase(parts);
   if (!*whole) return std::nullopt;
-  incomplete_.erase(parts);
   auto cells = wire::decode_tile(**whole, geometry_);
   if (!cells) return forward_error(cells);
   return std::optional(*cells);

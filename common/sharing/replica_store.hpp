@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -53,6 +54,16 @@ class ReplicaStore {
   /// cell size, tile out of range, somebody else's layer, too many layers, tiles or incomplete
   /// tiles) changes nothing that is held.
   [[nodiscard]] Result<Applied> apply(const wire::TsdTile& sample);
+  /// The same for a tile that anybody sent again.
+  [[nodiscard]] Result<Applied> apply(const wire::TileCopy& copy);
+
+  /// Holds a tile again that was held before a restart, unless a newer one came meanwhile. What
+  /// apply() would refuse is refused.
+  [[nodiscard]] Result<void> restore(const LayerKey& layer, TileIndex tile, ReplicaTile held);
+
+  /// Hears of each tile taken in by apply(), to keep it.
+  using Listener = std::function<void(const LayerKey&, TileIndex, const ReplicaTile&)>;
+  void set_listener(Listener listener) { listener_ = std::move(listener); }
 
   /// Holds a tile just published by ourselves.
   void put_own(const LayerKey& layer, TileIndex tile, Revision revision,
@@ -71,6 +82,7 @@ class ReplicaStore {
   [[nodiscard]] RevisionDigest digest(const LayerKey& layer) const;
 
  private:
+  [[nodiscard]] Result<Applied> take_in(const wire::TsdTile& sample);
   [[nodiscard]] Result<void> check_limits(const LayerKey& layer, TileIndex tile) const;
   /// The tile once all of its parts are there.
   [[nodiscard]] Result<std::optional<QuantisedTile>> join(const ChangedTile& tile,
@@ -80,6 +92,7 @@ class ReplicaStore {
   std::map<LayerKey, ReplicaLayer> layers_;
   std::map<std::pair<LayerKey, TileIndex>, wire::TileParts> incomplete_;
   std::vector<ChangedTile> changed_;
+  Listener listener_;
 };
 
 /// What two machines must have alike to hold the same common map: the directive's epoch and all

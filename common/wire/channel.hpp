@@ -16,6 +16,8 @@ class Outbox {
   [[nodiscard]] virtual Result<void> put(const Message& message) = 0;
   /// Whether anybody reads (scans are sent only then).
   [[nodiscard]] virtual bool has_reader() const = 0;
+  /// Says that this end is alive though it has nothing to say, where the topic asks for that.
+  virtual void assert_alive() {}
 };
 
 /// Where a state machine takes the samples of one topic from.

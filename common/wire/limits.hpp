@@ -10,7 +10,7 @@ inline constexpr std::size_t kMaxMissionIdLength = 32;
 inline constexpr std::size_t kMaxSignature = 64;
 inline constexpr std::size_t kMaxScanBeams = 640;
 inline constexpr std::size_t kMaxTilePart = 1000;
-inline constexpr std::size_t kMaxTilesPerRequest = 256;
+inline constexpr std::size_t kMaxTilesPerRequest = 48;
 inline constexpr std::size_t kMaxMembers = 64;
 inline constexpr std::size_t kMaxCandidates = 16;
 inline constexpr std::size_t kMaxReason = 256;
@@ -21,5 +21,9 @@ inline constexpr std::size_t kMaxAlertText = 128;
 // A tile's payload, of all parts together.
 inline constexpr std::size_t kMaxTilePayload = 8192;
 inline constexpr std::size_t kMaxTileParts = (kMaxTilePayload + kMaxTilePart - 1) / kMaxTilePart;
+
+// About what a sample takes on the network besides its own octets: headers of IP, UDP and RTPS, and
+// the time stamp.
+inline constexpr std::size_t kOctetsAboutASample = 100;
 
 }  // namespace lifeline::wire

@@ -131,7 +131,8 @@ class LoopbackBus {
   explicit LoopbackBus(std::size_t capacity = kDefaultCapacity)
       : topics_(make_topic<HelmetPose>(capacity), make_topic<HelmetScan>(capacity),
                 make_topic<TsdTile>(capacity), make_topic<TileRequest>(capacity),
-                make_topic<MergeDirective>(capacity), make_topic<MergeEvidence>(capacity),
+                make_topic<TileCopy>(capacity), make_topic<MergeDirective>(capacity),
+                make_topic<DirectiveCopy>(capacity), make_topic<MergeEvidence>(capacity),
                 make_topic<AgentStatus>(capacity), make_topic<Detection>(capacity),
                 make_topic<Alert>(capacity)) {}
 
@@ -152,8 +153,8 @@ class LoopbackBus {
 
   template <typename... Messages>
   using Topics = std::tuple<std::shared_ptr<LoopbackTopic<Messages>>...>;
-  Topics<HelmetPose, HelmetScan, TsdTile, TileRequest, MergeDirective, MergeEvidence, AgentStatus,
-         Detection, Alert>
+  Topics<HelmetPose, HelmetScan, TsdTile, TileRequest, TileCopy, MergeDirective, DirectiveCopy,
+         MergeEvidence, AgentStatus, Detection, Alert>
       topics_;
 };
 

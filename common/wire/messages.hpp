@@ -71,18 +71,28 @@ struct TsdTile {
   std::vector<std::uint8_t> payload;  ///< this part of it
 };
 
+/// lifeline/tile_copy: a tile sent again by whoever was asked for it, word for word as its owner
+/// published it. The envelope is the sender's.
+struct TileCopy : TsdTile {};
+
 struct TileName {
   std::int32_t x = 0;
   std::int32_t y = 0;
-  std::uint64_t revision_held = 0;  ///< the newest revision that the requester has, 0 = none
+  std::uint64_t revision_held = 0;  ///< the newest revision that the requester has
 };
 
-/// lifeline/tile_request
+/// lifeline/tile_request: of the layer's tiles with after < (x, y) <= to, ordered by x and then y,
+/// the requester holds `held` and no others. It asks one participant for what is newer or missing.
 struct TileRequest {
   Envelope envelope;
   std::string requester_id;
+  std::string asked_id;
   LayerName layer;
-  std::vector<TileName> tiles;
+  std::int32_t after_x = 0;
+  std::int32_t after_y = 0;
+  std::int32_t to_x = 0;
+  std::int32_t to_y = 0;
+  std::vector<TileName> held;
 };
 
 /// A rigid transform as the coordinator wrote it: readers need no libm, so that all fuse to the
@@ -114,6 +124,14 @@ struct MergeDirective {
   std::uint16_t own_weight_permille = 500;  ///< w_T1 of Eq. 8-10 times 1000
   std::vector<DirectiveMember>
       members;  ///< ordered by group; within a group the lead first, then by layer
+};
+
+/// lifeline/directive_copy: a directive as its coordinator said it, told by a helmet to those who
+/// cannot hear that one. The envelope is the teller's.
+struct DirectiveCopy {
+  Envelope envelope;
+  std::string teller_id;
+  MergeDirective directive;
 };
 
 enum class Verdict : std::uint8_t { accepted = 0, wait = 1, rejected = 2 };
@@ -150,6 +168,13 @@ enum class AgentState : std::uint8_t {
 };
 enum class SensorHealth : std::uint8_t { good = 0, degraded = 1, silent = 2, failed = 3 };
 
+/// Whether a sender records what it hears.
+enum class RecordingState : std::uint8_t {
+  off = 0,
+  on = 1,
+  failing = 2,  ///< the disk refuses: nothing is recorded until there is room
+};
+
 /// What a sender holds of one layer.
 struct LayerDigest {
   LayerName layer;
@@ -176,6 +201,8 @@ struct AgentStatus {
   std::uint64_t bytes_sent = 0;
   std::uint64_t bytes_queued = 0;
   std::uint32_t tiles_behind = 0;
+  RecordingState recording = RecordingState::off;
+  std::uint64_t samples_unrecorded = 0;  ///< what the recording lacks
   float explored_m2 = 0.0F;
   float slam_ms_median = 0.0F;
   std::uint64_t epoch_applied = 0;
@@ -193,19 +220,21 @@ enum class DetectionState : std::uint8_t {
   rescued = 3
 };
 
-/// lifeline/detection
+/// lifeline/detection: all that one helmet knows of one find, as of its newest sighting.
 struct Detection {
   Envelope envelope;
   std::string agent_id;
-  std::uint32_t detection_id = 0;
+  std::uint32_t detection_id = 0;  ///< never the same again, not even in the helmet's next map
+  std::uint32_t revision = 0;      ///< grows with each sample of the detection
   std::uint32_t map_id = 0;
   std::int16_t floor = 0;
   DetectionKind kind = DetectionKind::victim;
   DetectionState state = DetectionState::reported;
   double x_m = 0.0;  ///< in the map frame of (agent_id, map_id, floor)
   double y_m = 0.0;
-  float confidence = 0.0F;
-  std::int64_t seen_at_ns = 0;
+  float confidence = 0.0F;            ///< that it is there at all, 0 to 1
+  std::int64_t first_seen_at_ns = 0;  ///< the helmet's own clock, as seen_at_ns
+  std::int64_t seen_at_ns = 0;        ///< the newest sighting
 };
 
 enum class AlertKind : std::uint8_t { mayday = 0, evacuate = 1, roll_call = 2 };

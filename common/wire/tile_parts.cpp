@@ -1,6 +1,7 @@
 #include "common/wire/tile_parts.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/base/check.hpp"
 #include "common/wire/limits.hpp"
@@ -27,22 +28,24 @@ Result<std::optional<std::vector<std::uint8_t>>> TileParts::add(const TsdTile& s
     return fail(ErrorCode::bad_data, "tile refused: a part of {} octets, at most {} are allowed",
                 sample.payload.size(), kMaxTilePart);
   }
-  if (sample.revision < revision_) return std::nullopt;
-  if (sample.revision > revision_) {
-    revision_ = sample.revision;
-    parts_.assign(sample.parts, std::nullopt);
-  }
-  if (parts_.size() != sample.parts) {
+  Parts& parts = begin(sample);
+  if (parts.size() != sample.parts) {
     return fail(ErrorCode::bad_data, "tile refused: revision {} comes in {} parts, and in {}",
-                sample.revision, parts_.size(), sample.parts);
+                sample.revision, parts.size(), sample.parts);
   }
-  parts_[sample.part] = sample.payload;
-  if (!std::all_of(parts_.begin(), parts_.end(), [](const auto& part) { return part; })) {
+  parts[sample.part] = sample.payload;
+  if (!std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part; }))
     return std::nullopt;
-  }
   std::vector<std::uint8_t> payload;
-  for (const auto& part : parts_) payload.insert(payload.end(), part->begin(), part->end());
+  for (const auto& part : parts) payload.insert(payload.end(), part->begin(), part->end());
+  begun_.erase(begun_.begin(), begun_.upper_bound(sample.revision));
   return payload;
+}
+
+TileParts::Parts& TileParts::begin(const TsdTile& sample) {
+  const auto [begun, is_new] = begun_.try_emplace(sample.revision, sample.parts);
+  if (begun_.size() > 2) begun_.erase(begun == begun_.begin() ? std::next(begun) : begun_.begin());
+  return begun->second;
 }
 
 }  // namespace lifeline::wire

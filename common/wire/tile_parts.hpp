@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,16 +17,20 @@ namespace lifeline::wire {
 [[nodiscard]] std::vector<std::vector<std::uint8_t>> split_payload(
     std::span<const std::uint8_t> payload);
 
-/// The parts of one tile as they arrive, in any order. Only the newest revision is kept.
+/// The parts of one tile as they arrive, in any order, of two revisions at a time: of the newest
+/// one the rest may never come (its sender is gone), while somebody sends the one before it again.
 class TileParts {
  public:
-  /// The whole payload once the last part is there; nothing before, and nothing for parts of older
-  /// revisions. bad_data where a sample contradicts itself or the parts that came before.
+  /// The whole payload once the last part of a revision is there, which ends all older ones;
+  /// nothing before. bad_data where a sample contradicts itself or the parts that came before.
   [[nodiscard]] Result<std::optional<std::vector<std::uint8_t>>> add(const TsdTile& sample);
 
+  [[nodiscard]] bool empty() const { return begun_.empty(); }
+
  private:
-  std::uint64_t revision_ = 0;
-  std::vector<std::optional<std::vector<std::uint8_t>>> parts_;
+  using Parts = std::vector<std::optional<std::vector<std::uint8_t>>>;
+  Parts& begin(const TsdTile& sample);
+  std::map<std::uint64_t, Parts> begun_;  ///< by revision
 };
 
 }  // namespace lifeline::wire

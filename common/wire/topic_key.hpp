@@ -19,11 +19,17 @@ namespace lifeline::wire {
 [[nodiscard]] inline auto topic_key(const TsdTile& m) {
   return std::tuple(m.layer.agent_id, m.layer.map_id, m.layer.floor, m.tile_x, m.tile_y, m.part);
 }
+[[nodiscard]] inline auto topic_key(const TileCopy& m) {
+  return topic_key(static_cast<const TsdTile&>(m));
+}
 [[nodiscard]] inline auto topic_key(const TileRequest& m) {
   return std::tuple(m.requester_id);
 }
 [[nodiscard]] inline auto topic_key(const MergeDirective& m) {
   return std::tuple(m.mission_id);
+}
+[[nodiscard]] inline auto topic_key(const DirectiveCopy& m) {
+  return std::tuple(m.teller_id);
 }
 [[nodiscard]] inline auto topic_key(const MergeEvidence& m) {
   return std::tuple(m.a, m.b);
@@ -50,5 +56,9 @@ template <>
 inline constexpr bool kReachesLateReaders<HelmetScan> = false;
 template <>
 inline constexpr bool kReachesLateReaders<TileRequest> = false;
+template <>
+inline constexpr bool kReachesLateReaders<TileCopy> = false;
+template <>
+inline constexpr bool kReachesLateReaders<DirectiveCopy> = false;
 
 }  // namespace lifeline::wire

@@ -1,0 +1,70 @@
+#include "common/sharing/link_budget.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/wire/limits.hpp"
+
+namespace lifeline::sharing {
+namespace {
+
+// Heartbeats and repetitions end only once everything has arrived: they may slow the tiles down,
+// but not stop them.
+constexpr double kMostUnannounced = 0.85;
+// What the counter has not shown for so long was not sent.
+constexpr Duration kForgetAfter = std::chrono::seconds(1);
+
+double reserve_of(Traffic traffic) {
+  switch (traffic) {
+    case Traffic::pose:
+      return 0.0;
+    case Traffic::tile:
+      return 0.1;
+    case Traffic::scan:
+      return 0.5;
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+LinkBudget::LinkBudget(double rate_bit_s, std::function<std::uint64_t()> octets_sent)
+    : rate_bit_s_(rate_bit_s),
+      octets_sent_(std::move(octets_sent)),
+      allowance_bits_(rate_bit_s),
+      counted_(octets_sent_()) {}
+
+void LinkBudget::measure(SteadyTime now, std::size_t receivers) {
+  receivers_ = static_cast<double>(std::max<std::size_t>(receivers, 1));
+  const double gained_bits =
+      measured_at_ == SteadyTime{} ? 0.0 : to_seconds(now - measured_at_) * rate_bit_s_;
+  measured_at_ = now;
+  allowance_bits_ += gained_bits;
+  const std::uint64_t counted = octets_sent_();
+  const double sent = static_cast<double>(counted - std::min(counted, counted_));
+  counted_ = counted;
+  const double confirmed = std::min(sent, expected_octets_);
+  expected_octets_ -= confirmed;
+  unannounced_bits_ += 8.0 * (sent - confirmed);
+  const double charged = std::min(unannounced_bits_, kMostUnannounced * gained_bits);
+  unannounced_bits_ = std::min(unannounced_bits_ - charged, rate_bit_s_);
+  allowance_bits_ -= charged;
+  if (sent > 0.0 || expected_octets_ == 0.0) confirmed_at_ = now;
+  if (now - confirmed_at_ > kForgetAfter) {
+    allowance_bits_ += 8.0 * std::exchange(expected_octets_, 0.0);
+    confirmed_at_ = now;
+  }
+  allowance_bits_ = std::min(allowance_bits_, rate_bit_s_);
+}
+
+void LinkBudget::expect(std::size_t octets) {
+  const double on_air = receivers_ * static_cast<double>(octets + wire::kOctetsAboutASample);
+  expected_octets_ += on_air;
+  allowance_bits_ -= 8.0 * on_air;
+}
+
+bool LinkBudget::allows(Traffic traffic) const {
+  return allowance_bits_ > reserve_of(traffic) * rate_bit_s_;
+}
+
+}  // namespace lifeline::sharing
