@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "agents/sources/source_spec.hpp"
 #include "common/files/load_config.hpp"
 #include "idl/config.pb.h"
 
@@ -42,8 +43,15 @@ AgentSettings to_settings(const proto::AgentConfig& config) {
   settings.slam.max_mean_error_m = slam.max_mean_error_m();
   settings.slam.gicp_max_iterations = static_cast<int>(slam.gicp_max_iterations());
   settings.projection = to_projection(config.sensing(), slam.max_range_m());
-  settings.publisher.budget_bit_s = config.sharing().budget_bit_s();
-  settings.publisher.min_tile_interval = from_seconds(config.sharing().min_tile_interval_s());
+  settings.budget_bit_s = config.sharing().budget_bit_s();
+  sharing::HoldBackConfig hold_back;
+  hold_back.min_interval = from_seconds(config.sharing().min_tile_interval_s());
+  hold_back.new_m2_s = config.sharing().hold_new_m2_s();
+  hold_back.changed_m2_s = config.sharing().hold_changed_m2_s();
+  hold_back.longest = from_seconds(config.sharing().hold_longest_s());
+  hold_back.least_m2 = config.sharing().least_change_m2();
+  settings.publisher.hold_back = sharing::for_budget(hold_back, settings.budget_bit_s);
+  settings.publisher.coarse = config.sharing().coarse_tiles();
   settings.match_working_map = config.sharing().match_working_map();
   return settings;
 }
@@ -65,6 +73,11 @@ Result<proto::AgentConfig> read_agent_config(const std::optional<std::filesystem
     config.mutable_slam()->set_matcher(*matcher);
   }
   return config;
+}
+
+Overflow overflow_of(const std::string& source) {
+  const auto spec = sources::parse_source_spec(source);
+  return spec && spec->text("rate", "real") == "max" ? Overflow::wait : Overflow::drop_oldest;
 }
 
 }  // namespace lifeline

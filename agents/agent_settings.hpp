@@ -7,6 +7,7 @@
 #include "agents/sensing/head_projection.hpp"
 #include "agents/sharing/tile_publisher.hpp"
 #include "agents/slam/tsd_slam.hpp"
+#include "common/base/bounded_queue.hpp"
 #include "common/base/result.hpp"
 #include "common/grid/tsd_grid.hpp"
 
@@ -22,6 +23,7 @@ struct AgentSettings {
   slam::SlamConfig slam;
   sensing::ProjectionConfig projection;
   sharing::TilePublisherConfig publisher;
+  double budget_bit_s = 256'000;  ///< of the link
   bool match_working_map = true;
 };
 
@@ -32,5 +34,9 @@ struct AgentSettings {
 /// file's.
 [[nodiscard]] Result<proto::AgentConfig> read_agent_config(
     const std::optional<std::filesystem::path>& file, const std::optional<std::string>& matcher);
+
+/// A sensor's newest scan is worth more than its oldest; a file played without pace must lose
+/// nothing.
+[[nodiscard]] Overflow overflow_of(const std::string& source);
 
 }  // namespace lifeline

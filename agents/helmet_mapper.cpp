@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "common/base/log.hpp"
 #include "common/base/quantile.hpp"
 #include "common/wire/limits.hpp"
 
@@ -38,6 +40,11 @@ wire::SensorHealth health_of(sensing::AttitudeHealth attitude) {
   return wire::SensorHealth::failed;
 }
 
+wire::DetectionKind kind_of(sensing::SightedKind kind) {
+  return kind == sensing::SightedKind::victim ? wire::DetectionKind::victim
+                                              : wire::DetectionKind::uwb_tag;
+}
+
 // Every n-th beam, so that a sweep fits into one sample; ranges up to 655 m, 0 = nothing known.
 void thin_out(const Scan2& scan, sharing::HelmetState& state) {
   state.ranges_cm.clear();
@@ -56,6 +63,23 @@ void thin_out(const Scan2& scan, sharing::HelmetState& state) {
 
 }  // namespace
 
+void HelmetMapper::resume(MapperMemory memory) {
+  earlier_ = std::move(memory.trajectory);
+  state_ = std::move(memory.state);
+  lost_scans_ = memory.lost_scans;
+  relocalisations_ = memory.relocalisations;
+  just_resumed_ = true;
+  slam_.resume(std::move(memory.layer), memory.last);
+  for (const TileIndex tile : slam_.take_changed_tiles()) changed_.insert(tile);
+}
+
+std::vector<StampedPose> HelmetMapper::trajectory() const {
+  std::vector<StampedPose> all = earlier_;
+  const auto own = slam_.trajectory();
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
 void HelmetMapper::step(const sensing::RawScan& raw) {
   const auto started = std::chrono::steady_clock::now();
   Scan2 scan = sensing::project_scan(raw, projection_);
@@ -65,7 +89,17 @@ void HelmetMapper::step(const sensing::RawScan& raw) {
   const slam::SlamStep step = slam_.step(scan, motion, slam::is_doubtful(faults, raw));
   step_ms_.push_back(1e3 * to_seconds(std::chrono::steady_clock::now() - started));
   for (const TileIndex tile : slam_.take_changed_tiles()) changed_.insert(tile);
+  note_sightings(raw, step);
   note_step(raw, scan, step);
+}
+
+/// Where the head is not known well, nobody is to be looked for where it was seen from there.
+void HelmetMapper::note_sightings(const sensing::RawScan& raw, const slam::SlamStep& step) {
+  if (step.lost || step.verdict == slam::Verdict::rejected) return;
+  for (const sensing::Sighting& each : raw.sightings) {
+    detections_.note({kind_of(each.kind), step.T_map_head * each.p_head_m, each.sigma_m,
+                      each.confidence, raw.stamp});
+  }
 }
 
 void HelmetMapper::note_step(const sensing::RawScan& raw, const Scan2& scan,
@@ -83,9 +117,23 @@ void HelmetMapper::note_step(const sensing::RawScan& raw, const Scan2& scan,
   state_.trust_percent = static_cast<std::uint8_t>(std::clamp(step.trust_percent, 0, 100));
   ++state_.scans;
   if (step.verdict == slam::Verdict::rejected) ++state_.failures;
-  if (step.lost) ++lost_scans_;
-  if (step.source == slam::PoseSource::relocalised) ++relocalisations_;
+  note_lost(raw, step);
   thin_out(scan, state_);
+}
+
+void HelmetMapper::note_lost(const sensing::RawScan& raw, const slam::SlamStep& step) {
+  if (step.lost) ++lost_scans_;
+  if (step.lost && !was_lost_) {
+    spdlog::warn("lost: looks for its place; nothing is mapped until it is found");
+  }
+  was_lost_ = step.lost;
+  if ((step.lost || std::exchange(just_resumed_, false)) && !lost_since_) lost_since_ = raw.stamp;
+  if (step.source == slam::PoseSource::relocalised) ++relocalisations_;
+  if (!step.lost && step.verdict != slam::Verdict::rejected && lost_since_) {
+    spdlog::info("found its place, {:.1f} s of scans later: x {:.2f} m, y {:.2f} m",
+                 to_seconds(raw.stamp - *std::exchange(lost_since_, {})), step.T_map_head.x_m,
+                 step.T_map_head.y_m);
+  }
 }
 
 void HelmetMapper::apply(const sharing::PeerUpdate& peers) {
@@ -105,6 +153,7 @@ sharing::MapTiles HelmetMapper::take_changed_tiles() {
 
 sharing::HelmetState HelmetMapper::state() const {
   sharing::HelmetState state = state_;
+  state.detections = detections_.all();
   const std::size_t recent = std::min(step_ms_.size(), kMedianOver);
   state.slam_ms_median =
       quantile({step_ms_.end() - static_cast<std::ptrdiff_t>(recent), step_ms_.end()}, 0.5);

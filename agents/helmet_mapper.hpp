@@ -8,11 +8,22 @@
 
 #include "agents/sensing/head_projection.hpp"
 #include "agents/sharing/helmet_sharing.hpp"
+#include "agents/sharing/own_detections.hpp"
 #include "agents/slam/scan_check.hpp"
 #include "agents/slam/tsd_slam.hpp"
 #include "common/grid/stamped_pose.hpp"
 
 namespace lifeline {
+
+/// What a helmet had mapped before it was restarted.
+struct MapperMemory {
+  TsdGrid layer;
+  std::vector<StampedPose> trajectory;
+  std::optional<slam::LastPlace> last;  ///< where it was moments ago, if that is known
+  sharing::HelmetState state;           ///< its counters
+  std::size_t lost_scans = 0;
+  std::size_t relocalisations = 0;
+};
 
 /// The mapping half of a helmet: scans in, own layer and pose out. Never waits for anybody.
 /// A state machine: one step() a scan. One owner, not thread-safe.
@@ -20,6 +31,10 @@ class HelmetMapper {
  public:
   HelmetMapper(slam::SlamConfig slam, GridGeometry geometry, sensing::ProjectionConfig projection)
       : slam_(without_loops(std::move(slam)), geometry), projection_(projection) {}
+
+  /// Goes on in the map of a process before this one: lost, until the first scans are found in it.
+  /// Before the first step().
+  void resume(MapperMemory memory);
 
   void step(const sensing::RawScan& raw);
   /// What changed in the peers' part of the working map.
@@ -33,6 +48,8 @@ class HelmetMapper {
 
   /// The own layer's tiles changed since the last call, at the published precision.
   [[nodiscard]] sharing::MapTiles take_changed_tiles();
+  /// Which tiles the next call of take_changed_tiles() would give.
+  [[nodiscard]] const std::set<TileIndex>& changed_tiles() const { return changed_; }
   [[nodiscard]] sharing::HelmetState state() const;
 
   /// Scans taken while lost, and how often the place was found again.
@@ -41,7 +58,11 @@ class HelmetMapper {
 
   [[nodiscard]] const TsdGrid& layer() const { return slam_.layer(); }
   /// T_map_head of every scan, as last corrected; the last few come with finish().
-  [[nodiscard]] std::vector<StampedPose> trajectory() const { return slam_.trajectory(); }
+  [[nodiscard]] std::vector<StampedPose> trajectory() const;
+  /// Those of this process, from number `first` on.
+  [[nodiscard]] std::vector<StampedPose> trajectory_from(std::size_t first) const {
+    return slam_.trajectory(first);
+  }
   /// T_world_head of every scan whose source knows it; for judging only.
   [[nodiscard]] const std::vector<StampedPose>& truth() const { return truth_; }
   /// Time of each whole step, in the order of scans.
@@ -55,18 +76,25 @@ class HelmetMapper {
     config.keyframes.hand_over = false;
     return config;
   }
+  void note_sightings(const sensing::RawScan& raw, const slam::SlamStep& step);
   void note_step(const sensing::RawScan& raw, const Scan2& scan, const slam::SlamStep& step);
+  void note_lost(const sensing::RawScan& raw, const slam::SlamStep& step);
 
   slam::TsdSlam slam_;
   sensing::ProjectionConfig projection_;
   sensing::MotionTracker motion_;
   slam::ScanCheck check_;
   std::optional<StampedPose> last_;
+  std::vector<StampedPose> earlier_;  ///< the trajectory before a restart
   std::vector<StampedPose> truth_;
   std::vector<double> step_ms_;
+  bool just_resumed_ = false;
+  bool was_lost_ = false;
+  std::optional<Timestamp> lost_since_;  ///< the place was not known, or not again yet
   std::size_t lost_scans_ = 0;
   std::size_t relocalisations_ = 0;
   std::set<TileIndex> changed_;
+  sharing::OwnDetections detections_;
   sharing::HelmetState state_;
 };
 

@@ -5,6 +5,7 @@
 #include "common/base/quantile.hpp"
 #include "common/base/sha256.hpp"
 #include "common/files/atomic_file.hpp"
+#include "common/files/finds_json.hpp"
 #include "common/files/map_file.hpp"
 #include "common/files/tum.hpp"
 
@@ -35,6 +36,7 @@ std::string to_json(const LayerKey& layer, const HelmetMapper& mapper, std::size
   json["samples_refused"] = status.samples_refused;
   json["tiles_behind"] = status.tiles_behind;
   json["duplicate_id_heard"] = status.duplicate_id_heard;
+  json["detections"] = files::to_json(helmet.detections());
   return json.dump(1) + "\n";
 }
 

@@ -15,10 +15,11 @@ constexpr Duration kSilentAfter = std::chrono::milliseconds(400);
 }  // namespace
 
 HelmetThreads::HelmetThreads(std::unique_ptr<sensing::ScanSource> source, Overflow overflow,
-                             HelmetMapper& mapper, Mailbox& mailbox)
+                             HelmetMapper& mapper, Mailbox& mailbox, Keep keep)
     : source_(std::move(source)),
       mapper_(mapper),
       mailbox_(mailbox),
+      keep_(std::move(keep)),
       scans_(kQueuedScans, overflow),
       mapper_thread_([this] { map_scans(); }),
       source_thread_([this](const std::stop_token& stop) { read_source(stop); }) {}
@@ -48,7 +49,8 @@ void HelmetThreads::read_source(const std::stop_token& stop) {
       source_error_ = scan.error();
       break;
     }
-    if (!scan->has_value() || !scans_.push(**std::move(scan))) break;
+    if (!scan->has_value() || !scans_.push({**std::move(scan), std::chrono::steady_clock::now()}))
+      break;
   }
   scans_.close();
 }
@@ -57,10 +59,11 @@ void HelmetThreads::map_scans() {
   SteadyTime hand_over_due{}, last_scan = std::chrono::steady_clock::now();
   while (!scans_.finished()) {
     if (auto peers = mailbox_.take_peers()) mapper_.apply(*peers);
-    const auto scan = scans_.pop(kHandOverInterval);
+    const auto taken = scans_.pop(kHandOverInterval);
     const SteadyTime now = std::chrono::steady_clock::now();
-    if (scan) {
-      mapper_.step(*scan);
+    if (taken) {
+      mapper_.step(taken->scan);
+      if (oldest_mapped_ == SteadyTime{}) oldest_mapped_ = taken->at;
       last_scan = now;
     }
     mapper_.set_lidar_health(now - last_scan > kSilentAfter ? wire::SensorHealth::silent
@@ -76,9 +79,10 @@ void HelmetThreads::map_scans() {
 
 void HelmetThreads::hand_over(bool finished) {
   sharing::HelmetState state = mapper_.state();
-  state.scans_dropped = scans_.dropped();
+  state.scans_dropped += scans_.dropped();
   if (finished) state.state = wire::AgentState::finished;
-  mailbox_.put(mapper_.take_changed_tiles(), std::move(state));
+  if (keep_) keep_(mapper_, state);
+  mailbox_.put(mapper_.take_changed_tiles(), std::move(state), std::exchange(oldest_mapped_, {}));
 }
 
 }  // namespace lifeline

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -19,8 +20,11 @@ class HelmetThreads {
  public:
   /// `overflow`: what happens to scans that come faster than they can be mapped. `mapper` belongs
   /// to the mapping thread from here on, until stop() has returned.
+  /// `keep`, on the mapping thread, sees mapper and state before each hand-over: to keep them
+  /// through a restart.
+  using Keep = std::function<void(const HelmetMapper&, const sharing::HelmetState&)>;
   HelmetThreads(std::unique_ptr<sensing::ScanSource> source, Overflow overflow,
-                HelmetMapper& mapper, Mailbox& mailbox);
+                HelmetMapper& mapper, Mailbox& mailbox, Keep keep = {});
   ~HelmetThreads();
 
   /// Ends both threads and waits for them. The source must already have been told to stop if it can
@@ -41,7 +45,13 @@ class HelmetThreads {
   std::unique_ptr<sensing::ScanSource> source_;
   HelmetMapper& mapper_;
   Mailbox& mailbox_;
-  BoundedQueue<sensing::RawScan> scans_;
+  Keep keep_;
+  struct Taken {
+    sensing::RawScan scan;
+    SteadyTime at;  ///< when the source gave it
+  };
+  BoundedQueue<Taken> scans_;
+  SteadyTime oldest_mapped_{};  ///< scan that was not handed over yet; zero: none; mapping thread
   std::atomic<bool> finished_{false};
   mutable std::mutex error_mutex_;
   std::optional<Error> source_error_;

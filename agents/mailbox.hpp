@@ -13,9 +13,11 @@ namespace lifeline {
 /// of the state, only the newest is kept. Nobody ever waits for the other longer than a copy takes.
 class Mailbox {
  public:
-  // SLAM's side.
-  void put(const sharing::MapTiles& tiles, sharing::HelmetState state) {
+  // SLAM's side. `scanned_at`: when the oldest scan in `tiles` was taken that was not in those
+  // before; zero: none.
+  void put(const sharing::MapTiles& tiles, sharing::HelmetState state, SteadyTime scanned_at = {}) {
     std::lock_guard lock(mutex_);
+    if (scanned_at_ == SteadyTime{}) scanned_at_ = scanned_at;
     for (const auto& [tile, cells] : tiles) tiles_[tile] = cells;
     state_ = std::move(state);
   }
@@ -36,11 +38,13 @@ class Mailbox {
   struct Mapped {
     sharing::MapTiles tiles;
     sharing::HelmetState state;
+    SteadyTime scanned_at{};  ///< the oldest scan in `tiles`; zero: none
   };
   [[nodiscard]] std::optional<Mapped> take_mapped() {
     std::lock_guard lock(mutex_);
     if (!state_) return std::nullopt;
-    Mapped mapped{{tiles_.begin(), tiles_.end()}, *std::exchange(state_, {})};
+    Mapped mapped{
+        {tiles_.begin(), tiles_.end()}, *std::exchange(state_, {}), std::exchange(scanned_at_, {})};
     tiles_.clear();
     return mapped;
   }
@@ -49,6 +53,7 @@ class Mailbox {
   std::mutex mutex_;
   std::map<TileIndex, std::shared_ptr<const QuantisedTile>> tiles_;
   std::optional<sharing::HelmetState> state_;
+  SteadyTime scanned_at_{};
   std::map<TileIndex, std::shared_ptr<const TsdTile>> peer_tiles_;
   double own_weight_ = 0.5;
 };

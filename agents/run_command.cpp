@@ -1,17 +1,24 @@
 #include "agents/run_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <stop_token>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "agents/agent_settings.hpp"
+#include "agents/channel_settings.hpp"
 #include "agents/helmet_report.hpp"
 #include "agents/helmet_threads.hpp"
+#include "agents/hud/hud_feed.hpp"
+#include "agents/map_journal.hpp"
 #include "agents/sharing/mission_join.hpp"
 #include "agents/sources/open_source.hpp"
-#include "agents/sources/source_spec.hpp"
+#include "agents/storage/helmet_storage.hpp"
 #include "common/base/config_folder.hpp"
 #include "common/base/log.hpp"
 #include "common/base/stop_signal.hpp"
@@ -32,39 +39,48 @@ Result<proto::AgentConfig> read_config(const AgentRunOptions& options) {
   if (!config) return config;
   if (options.mission) config->mutable_mission()->set_mission_id(*options.mission);
   if (options.domain) config->mutable_mission()->set_domain_id(*options.domain);
+  if (options.state) config->mutable_storage()->set_folder(options.state->string());
+  if (options.budget_bit_s) config->mutable_sharing()->set_budget_bit_s(*options.budget_bit_s);
   return config;
 }
 
-// A sensor's newest scan is worth more than its oldest; a file played without pace must lose
-// nothing.
-Overflow overflow_of(const std::string& source) {
-  const auto spec = sources::parse_source_spec(source);
-  return spec && spec->text("rate", "real") == "max" ? Overflow::wait : Overflow::drop_oldest;
+// Nothing where nothing is to be kept, or the disk refuses.
+Result<std::unique_ptr<HelmetStorage>> open_storage(const proto::AgentConfig& config,
+                                                    const sharing::Speaker& speaker, Floor floor,
+                                                    const Clock& clock) {
+  if (config.storage().folder() == "off") {
+    spdlog::info("keeps nothing on disk: a restart begins a new map (storage.folder or --state)");
+    return nullptr;
+  }
+  store::ResumeLimits limits;
+  limits.oldest = from_seconds(3600.0 * config.storage().resume_within_h());
+  return HelmetStorage::open(config.storage().folder(),
+                             {"helmet", speaker.id.text(), speaker.mission_id,
+                              to_settings(config).geometry, speaker.incarnation.value},
+                             floor, limits, clock);
 }
 
-Result<sharing::HelmetChannels> open_channels(dds::Participant& participant) {
-  sharing::HelmetChannels channels;
-  Result<void> all;
-  dds::open_outbox(participant, channels.pose, all);
-  dds::open_outbox(participant, channels.scan, all);
-  dds::open_outbox(participant, channels.tile, all);
-  dds::open_outbox(participant, channels.status, all);
-  dds::open_inbox(participant, channels.tiles, all);
-  dds::open_inbox(participant, channels.directives, all);
-  dds::open_inbox(participant, channels.statuses, all);
-  if (!all) return forward_error(all);
-  channels.bytes_sent = [&participant] { return participant.bytes_sent(); };
-  return channels;
+// A number that no map of this helmet has had.
+MapId choose_map(MapId unused, HelmetStorage* storage) {
+  if (storage == nullptr) return unused;
+  return std::max(unused, MapId{storage->memory().last_map + 1});
 }
 
-Result<MapId> join(const sharing::Speaker& speaker, Floor floor, sharing::HelmetChannels& channels,
-                   dds::Participant& participant, const Clock& clock) {
+struct Welcome {
+  MapId unused_map;
+  std::uint64_t statuses_said = 0;
+};
+
+Result<Welcome> join(const sharing::Speaker& speaker, Floor floor,
+                     sharing::HelmetChannels& channels, dds::Participant& participant,
+                     const Clock& clock) {
   sharing::MissionJoin joining(speaker, floor, kJoinListen, *channels.status, *channels.statuses,
                                clock);
   while (!stop_requested()) {
     if (auto answer = joining.step()) {
-      if (!*answer) std::this_thread::sleep_for(kLingerAfterRefusal);
-      return *std::move(answer);
+      if (*answer) return Welcome{**answer, joining.announced()};
+      std::this_thread::sleep_for(kLingerAfterRefusal);
+      return forward_error(*answer);
     }
     participant.wait_for_data(kLoopWait);
   }
@@ -73,21 +89,103 @@ Result<MapId> join(const sharing::Speaker& speaker, Floor floor, sharing::Helmet
 
 // Exchanges what both halves have for each other until a signal comes.
 void share(HelmetThreads& threads, Mailbox& mailbox, sharing::HelmetSharing& helmet,
-           bool match_working_map, dds::Participant& participant) {
+           bool match_working_map, HelmetStorage* storage, hud::HudFeed& hud,
+           dds::Participant& participant) {
   bool told = false;
   while (!stop_requested() && !threads.source_error()) {
     participant.wait_for_data(kLoopWait);
     if (auto mapped = mailbox.take_mapped()) {
-      helmet.put(mapped->tiles);
+      helmet.put(mapped->tiles, mapped->scanned_at);
+      hud.pass(mapped->tiles);
       helmet.put(std::move(mapped->state));
     }
     helmet.step();
-    if (auto peers = helmet.take_peer_update(); peers && match_working_map)
-      mailbox.put_peers(*peers);
+    if (storage != nullptr) storage->step(helmet);
+    if (auto peers = helmet.take_peer_update()) {
+      hud.pass(*peers);
+      if (match_working_map) mailbox.put_peers(*peers);
+    }
+    hud.step(helmet, std::chrono::steady_clock::now());
     if (threads.finished() && !std::exchange(told, true)) {
       spdlog::info("the source gave its last scan; still sharing, stop with Ctrl-C");
     }
   }
+}
+
+/// The mapping half at work. Where it goes on in a map it does not wait until the mission is
+/// joined.
+class Mapping {
+ public:
+  explicit Mapping(const AgentSettings& settings)
+      : mapper(settings.slam, settings.geometry, settings.projection) {}
+
+  void begin(std::unique_ptr<sensing::ScanSource> source, Overflow overflow, const LayerKey& layer,
+             HelmetStorage* storage) {
+    HelmetThreads::Keep keep;
+    if (storage != nullptr) {
+      storage->begin(layer);
+      keep = storage->keep();
+      if (auto memory = std::exchange(storage->memory().mapper, {}))
+        mapper.resume(*std::move(memory));
+    }
+    threads.emplace(std::move(source), overflow, mapper, mailbox, std::move(keep));
+  }
+
+  HelmetMapper mapper;
+  Mailbox mailbox;
+  std::optional<HelmetThreads> threads;  ///< last: ended before what they use goes away
+};
+
+/// Tells a source that can wait to stop, whatever the reason.
+struct StopAtEnd {
+  std::stop_source& source;
+  ~StopAtEnd() { source.request_stop(); }
+};
+
+// Shares until a signal or the source's error.
+Result<void> share_map(const AgentRunOptions& options, const AgentSettings& settings,
+                       const sharing::HelmetSharingConfig& config, sharing::HelmetChannels channels,
+                       Mapping& mapping, HelmetStorage* storage, hud::HudFeed& hud,
+                       std::stop_source& stop_source, dds::Participant& participant,
+                       const Clock& clock) {
+  if (storage != nullptr) storage->attach(channels);
+  sharing::HelmetSharing helmet(config, std::move(channels), clock);
+  if (storage != nullptr) {
+    if (auto resumed = storage->attach(helmet); !resumed) return resumed;
+  }
+  std::optional<MapJournal> journal;
+  if (options.journal) {
+    auto opened = MapJournal::open(*options.journal);
+    if (!opened) return forward_error(opened);
+    journal = *std::move(opened);
+    journal->attach(helmet);
+  }
+  share(*mapping.threads, mapping.mailbox, helmet, settings.match_working_map, storage, hud,
+        participant);
+  stop_source.request_stop();
+  mapping.threads->stop();
+  if (options.report) {
+    if (auto written = write_helmet_report(*options.report, config.layer, mapping.mapper,
+                                           mapping.threads->scans_dropped(), helmet);
+        !written)
+      return written;
+  }
+  if (auto error = mapping.threads->source_error()) return tl::unexpected<Error>(*error);
+  return {};
+}
+
+// Beginning where the wearer came in, also before a restart.
+Result<hud::HudFeed> start_hud(const hud::HudOptions& options, double cell_size_m,
+                               HelmetStorage* storage) {
+  if (!options.wanted()) return hud::HudFeed(nullptr);
+  hud::Path earlier;
+  if (storage != nullptr && storage->memory().mapper) {
+    for (const auto& stamped : storage->memory().mapper->trajectory)
+      earlier.push_back(stamped.pose.translation());
+  }
+  auto hud = hud::Hud::start(options, cell_size_m, earlier);
+  if (!hud) return forward_error(hud);
+  return hud::HudFeed(*std::move(hud));
 }
 
 Result<void> run(const AgentRunOptions& options) {
@@ -99,42 +197,43 @@ Result<void> run(const AgentRunOptions& options) {
   if (options.report) {
     if (auto ready = files::prepare_report_folder(*options.report); !ready) return ready;
   }
+  const SystemClock clock;
+  const sharing::Speaker speaker{*id, config->mission().mission_id(), random_incarnation()};
+  const AgentSettings settings = to_settings(*config);
+  LayerKey layer{*id, MapId{}, Floor{static_cast<std::int16_t>(config->floor())}};
   std::stop_source stop_source;
   auto source = sources::open_source_with_attitude(options.source, options.attitude,
                                                    sources::kRealTime, stop_source.get_token());
   if (!source) return forward_error(source);
   auto qos = dds::qos_file(options.qos, options.config, config->mission().qos_profiles());
   if (!qos) return forward_error(qos);
+  auto storage = open_storage(*config, speaker, layer.floor, clock);
+  if (!storage) return forward_error(storage);
+  auto hud = start_hud(options.hud, settings.geometry.cell_size_m, storage->get());
+  if (!hud) return forward_error(hud);
+  Mapping mapping(settings);
+  const StopAtEnd stop{stop_source};
+  const Overflow overflow = overflow_of(options.source);
+  if (*storage && (*storage)->memory().map) {
+    layer.map_id = *(*storage)->memory().map;
+    mapping.begin(*std::move(source), overflow, layer, storage->get());
+  }
   auto participant = dds::Participant::create({config->mission().domain_id(), *qos, options.id});
   if (!participant) return forward_error(participant);
-  auto channels = open_channels(**participant);
+  auto channels = open_channels(**participant, config->sharing().interface(), options.hud.wanted());
   if (!channels) return forward_error(channels);
-
-  const SystemClock clock;
-  const sharing::Speaker speaker{*id, config->mission().mission_id(), random_incarnation()};
-  const Floor floor{static_cast<std::int16_t>(config->floor())};
-  auto map_id = join(speaker, floor, *channels, **participant, clock);
-  if (!map_id) return forward_error(map_id);
-
-  const AgentSettings settings = to_settings(*config);
-  const LayerKey layer{*id, *map_id, floor};
-  HelmetMapper mapper(settings.slam, settings.geometry, settings.projection);
-  Mailbox mailbox;
-  sharing::HelmetSharing helmet({speaker, layer, settings.geometry, settings.publisher},
-                                *std::move(channels), clock);
-  HelmetThreads threads(*std::move(source), overflow_of(options.source), mapper, mailbox);
-  share(threads, mailbox, helmet, settings.match_working_map, **participant);
-  stop_source.request_stop();
-  threads.stop();
-  if (options.report) {
-    if (auto written =
-            write_helmet_report(*options.report, layer, mapper, threads.scans_dropped(), helmet);
-        !written) {
-      return written;
-    }
+  const auto welcome = join(speaker, layer.floor, *channels, **participant, clock);
+  if (!welcome) return forward_error(welcome);
+  if (!mapping.threads) {
+    layer.map_id = choose_map(welcome->unused_map, storage->get());
+    mapping.begin(*std::move(source), overflow, layer, storage->get());
   }
-  if (auto error = threads.source_error()) return tl::unexpected<Error>(*error);
-  return {};
+  spdlog::info("joined mission {} with map {}", speaker.mission_id, layer.map_id.value);
+  return share_map(options, settings,
+                   {speaker, layer, settings.geometry, settings.publisher, settings.budget_bit_s,
+                    welcome->statuses_said},
+                   *std::move(channels), mapping, storage->get(), *hud, stop_source, **participant,
+                   clock);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "agents/hud/hud_options.hpp"
+
 namespace lifeline {
 
 /// What `lifeline-agent run` was told.
@@ -18,7 +20,11 @@ struct AgentRunOptions {
   std::optional<std::string> mission;  ///< these override the configuration
   std::optional<std::uint32_t> domain;
   std::optional<std::filesystem::path> qos;
+  std::optional<std::uint32_t> budget_bit_s;
   std::optional<std::string> matcher;
+  std::optional<std::filesystem::path> journal;  ///< file for what was published and fused when
+  std::optional<std::filesystem::path> state;    ///< folder of the state file
+  hud::HudOptions hud;
 };
 
 /// Runs the helmet until a signal; a source that ends leaves the helmet sharing. The exit status: 0

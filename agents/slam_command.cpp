@@ -239,6 +239,10 @@ Result<void> run_slam(const SlamCommandOptions& options) {
   const auto run = play(**source, settings.projection, slam, closer);
   if (!run) return forward_error(run);
   if (auto written = write_all(options, *config, slam.layer(), *run); !written) return written;
+  if (options.json) {
+    fmt::print("{}", to_json(*run, config->slam().matcher(), slam.layer()));
+    return {};
+  }
   fmt::print("{} scans, {} weak, {} failed; {:.2f} ms a scan (p99 {:.2f}); {:.0f} m2 explored\n",
              run->trajectory.size(), run->weak, run->rejected, quantile(run->step_ms, 0.5),
              quantile(run->step_ms, 0.99), known_area_m2(slam.layer()));

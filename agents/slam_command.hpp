@@ -16,6 +16,7 @@ struct SlamCommandOptions {
   std::optional<std::filesystem::path> stats;   ///< JSON: counts, times, memory
   std::optional<std::filesystem::path> config;  ///< config/agent.yaml's schema
   std::optional<std::string> matcher;           ///< overrides the configuration
+  bool json = false;                            ///< print what `stats` would hold
 };
 
 /// One helmet offline: plays a source through SLAM as fast as it goes, with no network. Same input,

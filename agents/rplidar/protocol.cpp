@@ -1,10 +1,12 @@
 #include "agents/rplidar/protocol.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "common/base/check.hpp"
+#include "common/base/printable.hpp"
 
 namespace lifeline::rplidar {
 namespace {
@@ -102,9 +104,9 @@ std::string parse_name(Bytes value) {
   std::string name;
   for (const std::uint8_t byte : value.first(std::min(value.size(), kNameBytes))) {
     if (byte == 0) break;
-    name += byte >= 0x20 && byte < 0x7F ? static_cast<char>(byte) : '?';
+    name += static_cast<char>(byte);
   }
-  return name;
+  return printable(std::move(name));
 }
 
 bool AnswerFinder::push(Bytes bytes) {

@@ -107,6 +107,9 @@ class RplidarSource final : public sensing::ScanSource {
       auto sweep = scan_->assembler.add(sample);
       if (!sweep) continue;
       sweep->stamp += wall_minus_steady_;
+      // Sweeps before were read so late that they seem younger: left out, time never goes back.
+      if (sweep->stamp <= last_stamp_) continue;
+      last_stamp_ = sweep->stamp;
       sweeps_.push_back(*std::move(sweep));
     }
     watch_.note(arrived, !samples_.empty(), scan_->assembler.turns() > turns);
@@ -162,6 +165,7 @@ class RplidarSource final : public sensing::ScanSource {
   SteadyTime left_at_;  ///< when next() was last left
   std::vector<Sample> samples_;
   std::deque<RawScan> sweeps_;
+  Timestamp last_stamp_ = Timestamp::min();
   std::optional<SteadyTime> lost_at_;
   std::string told_;
 };

@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "common/base/time.hpp"
 #include "common/grid/pose2.hpp"
 
@@ -29,6 +31,18 @@ enum class AttitudeHealth {
   failed,    ///< unplugged, frozen, or nothing that can be read
 };
 
+/// What a detector on the helmet can tell apart.
+enum class SightedKind { victim, uwb_tag };
+
+/// A find as a detector on the helmet sees it, in the gravity-aligned head frame at the scan's
+/// stamp.
+struct Sighting {
+  SightedKind kind = SightedKind::victim;
+  Eigen::Vector2d p_head_m{0.0, 0.0};
+  double sigma_m = 0.1;     ///< standard deviation of either coordinate
+  double confidence = 0.5;  ///< that it is there at all, 0 to 1
+};
+
 /// One sweep of a lidar as its driver or a recording gives it.
 struct RawScan {
   Timestamp stamp{};             ///< of the first beam, the sensor's clock
@@ -48,6 +62,7 @@ struct RawScan {
   AttitudeHealth attitude_health = AttitudeHealth::good;
   std::optional<Pose2>
       T_odom_head;  ///< dead reckoning (wheels, legs), in a drifting frame of its own
+  std::vector<Sighting> sightings;          ///< what a detector beside the lidar saw at the stamp
   std::optional<Pose2> T_world_head_truth;  ///< for judging only: no algorithm reads it
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/base/log.hpp"
-#include "common/sharing/accept.hpp"
 #include "common/wire/limits.hpp"
 
 namespace lifeline::sharing {
@@ -29,77 +28,59 @@ double known_area_m2(const ReplicaStore& store, const LayerKey& layer) {
 
 }  // namespace
 
-void log_refused(std::uint64_t count, const std::string& topic, const Error& error) {
-  if (count % 1000 == 1)
-    spdlog::warn("{}: refused a sample ({} so far): {}", topic, count, error.text);
-}
-
 HelmetSharing::HelmetSharing(HelmetSharingConfig config, HelmetChannels channels,
                              const Clock& clock)
     : config_(std::move(config)),
       channels_(std::move(channels)),
       clock_(clock),
       map_(config_.layer, config_.geometry),
+      link_(config_.budget_bit_s, channels_.octets_on_air),
       publisher_(config_.publisher, config_.layer, config_.speaker, *channels_.tile),
+      exchange_({config_.speaker, config_.layer, 0.5 * config_.budget_bit_s},
+                std::move(channels_.exchange)),
+      relay_(config_.speaker.id),
+      one_way_(config_.speaker.id),
+      alerts_(config_.speaker, wire::Role::helmet, std::move(channels_.alerts),
+              std::move(channels_.alert), clock),
       pose_stamper_(config_.speaker),
       scan_stamper_(config_.speaker),
-      status_stamper_(config_.speaker) {}
+      status_stamper_(config_.speaker, config_.statuses_said),
+      detection_stamper_(config_.speaker),
+      relay_stamper_(config_.speaker) {}
+
+Result<void> HelmetSharing::resume(const SharingMemory& memory) {
+  for (const auto& [layer, tiles] : memory.layers) {
+    for (const auto& [tile, kept] : tiles) {
+      if (auto held = map_.store().restore(layer, tile, {kept.revision, kept.cells}); !held)
+        return held;
+    }
+  }
+  if (memory.directive) {
+    if (auto followed = map_.follow(*memory.directive); !followed) return forward_error(followed);
+    detections_.follow(*memory.directive);
+  }
+  const auto own = memory.layers.find(config_.layer);
+  publisher_.resume(own == memory.layers.end() ? KeptTiles{} : own->second, memory.newest_before);
+  start_ = memory.start;
+  map_.update();
+  return alerts_.resume(memory.alerts);
+}
 
 void HelmetSharing::step() {
   const SteadyTime now = clock_.steady_now();
   hear_statuses(now);
+  alerts_.step(roster_, notes_);
+  one_way_.step(now, roster_);
   hear_directives();
-  hear_tiles();
+  hear_told_directives(now);
+  hear_tiles(now);
+  hear_detections(now);
+  hear_poses(now);
+  link_.measure(now, roster_.present(now).size());
+  // Own tiles first: what others lack of these nobody else can send.
   speak(now);
+  exchange_.step(now, clock_.wall_now(), roster_, map_.store(), link_);
   map_.update();
-}
-
-void HelmetSharing::hear_statuses(SteadyTime now) {
-  for (const auto& status : channels_.statuses->take()) {
-    if (auto accepted = check_envelope(status.envelope, config_.speaker.mission_id); !accepted) {
-      refuse("agent_status", accepted.error());
-      continue;
-    }
-    const bool own_id = status.agent_id == config_.speaker.id.text();
-    if (own_id && status.envelope.incarnation != config_.speaker.incarnation.value) {
-      if (!contested_) {
-        spdlog::error("another helmet calls itself {} too; rename one of them", status.agent_id);
-      }
-      contested_ = true;
-    }
-    if (!own_id) roster_.hear(status, now);
-  }
-}
-
-void HelmetSharing::hear_directives() {
-  for (const auto& directive : channels_.directives->take()) {
-    auto accepted = check_envelope(directive.envelope, config_.speaker.mission_id);
-    if (!accepted) {
-      refuse("merge_directive", accepted.error());
-      continue;
-    }
-    if (auto followed = map_.follow(directive); !followed) {
-      refuse("merge_directive", followed.error());
-    } else if (*followed) {
-      spdlog::info("follows directive {}: {} helmets in the common map", directive.epoch,
-                   map_.common_map().placements().size());
-    }
-  }
-}
-
-void HelmetSharing::hear_tiles() {
-  for (const auto& sample : channels_.tiles->take()) {
-    if (sample.layer.agent_id == config_.speaker.id.text() &&
-        sample.layer.map_id == config_.layer.map_id.value) {
-      continue;  // our own, come back
-    }
-    auto accepted = check_envelope(sample.envelope, config_.speaker.mission_id);
-    if (!accepted) {
-      refuse("tsd_tile", accepted.error());
-    } else if (auto applied = map_.store().apply(sample); !applied) {
-      refuse("tsd_tile", applied.error());
-    }
-  }
 }
 
 void HelmetSharing::speak(SteadyTime now) {
@@ -109,12 +90,19 @@ void HelmetSharing::speak(SteadyTime now) {
     own.envelope = status_stamper_.next(wall_now);
     send(*channels_.status, own);
   }
+  if (relay_.is_due(now, roster_, map_.epoch())) tell_directive(wall_now);
   if (state_.state == wire::AgentState::starting) return;
-  if (is_due(pose_due_, now, config_.pose_interval)) send_pose(wall_now);
-  if (channels_.scan->has_reader() && is_due(scan_due_, now, config_.scan_interval))
+  // Who stands still for good leaves the link to the tiles.
+  const bool sparing = !link_.allows(Traffic::pose) || state_.state == wire::AgentState::finished;
+  const Duration pose_interval = sparing ? config_.sparing_pose_interval : config_.pose_interval;
+  if (is_due(pose_due_, now, pose_interval)) send_pose(wall_now);
+  send_detections(now, wall_now);
+  if (channels_.scan->has_reader() && link_.allows(Traffic::scan) &&
+      is_due(scan_due_, now, config_.scan_interval)) {
     send_scan(wall_now);
-  if (auto sent = publisher_.step(now, wall_now, map_.store()); !sent)
-    refuse("tsd_tile", sent.error());
+  }
+  if (auto sent = publisher_.step(now, wall_now, map_.store(), link_); !sent)
+    notes_.refusals.note("tsd_tile", sent.error());
 }
 
 void HelmetSharing::send_pose(Timestamp wall_now) {
@@ -143,6 +131,29 @@ void HelmetSharing::send_scan(Timestamp wall_now) {
   send(*channels_.scan, scan);
 }
 
+void HelmetSharing::tell_directive(Timestamp wall_now) {
+  spdlog::info("tells directive {} to helmets that hear no coordinator", map_.epoch().value);
+  send(*channels_.relay.tell, wire::DirectiveCopy{relay_stamper_.next(wall_now),
+                                                  config_.speaker.id.text(), map_.directive()});
+}
+
+/// A new find once it is none of the detector's slips, and what further sightings make of it as
+/// often as the interval allows.
+void HelmetSharing::send_detections(SteadyTime now, Timestamp wall_now) {
+  told_.resize(std::max(told_.size(), state_.detections.size()));
+  for (const OwnDetection& own : state_.detections) {
+    Told& told = told_[own.number];
+    if (own.sightings < OwnDetections::kLeastSightings || own.sightings == told.sightings) continue;
+    if (told.sightings > 0 && now - told.at < config_.detection_interval) continue;
+    told = {own.sightings, now};
+    wire::Detection sample = to_wire(own, config_.layer, start_);
+    sample.envelope = detection_stamper_.next(wall_now);
+    if (auto applied = detections_.apply(sample); !applied)
+      notes_.refusals.note("detection", applied.error());
+    send(*channels_.detection, sample);
+  }
+}
+
 wire::AgentStatus HelmetSharing::status() const {
   wire::AgentStatus status;
   status.agent_id = config_.speaker.id.text();
@@ -158,6 +169,7 @@ wire::AgentStatus HelmetSharing::status() const {
   status.failures = state_.failures;
   status.samples_refused = refused();
   status.bytes_sent = channels_.bytes_sent ? channels_.bytes_sent() : 0;
+  status.bytes_queued = link_.octets_queued();
   status.tiles_behind = static_cast<std::uint32_t>(publisher_.waiting());
   status.explored_m2 = static_cast<float>(known_area_m2(map_.store(), config_.layer));
   status.slam_ms_median = static_cast<float>(state_.slam_ms_median);
@@ -175,12 +187,10 @@ wire::AgentStatus HelmetSharing::status() const {
 }
 
 std::uint64_t HelmetSharing::refused() const {
-  return refused_ + channels_.tiles->refused() + channels_.directives->refused() +
-         channels_.statuses->refused();
-}
-
-void HelmetSharing::refuse(const std::string& topic, const Error& error) {
-  log_refused(++refused_, topic, error);
+  return notes_.refusals.count() + exchange_.refused() + channels_.tiles->refused() +
+         channels_.directives->refused() + channels_.statuses->refused() +
+         channels_.detections->refused() + channels_.relay.told->refused() + alerts_.refused() +
+         (channels_.poses ? channels_.poses->refused() : 0);
 }
 
 template <typename Outbox, typename Message>

@@ -50,6 +50,7 @@ std::optional<Result<MapId>> MissionJoin::step() {
 void MissionJoin::announce() {
   wire::AgentStatus status;
   status.envelope = stamper_.next(clock_.wall_now());
+  ++announced_;
   status.agent_id = speaker_.id.text();
   status.state = wire::AgentState::starting;
   status.floor = floor_.value;

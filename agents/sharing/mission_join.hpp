@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,8 @@ class MissionJoin {
   /// id is in use. Of two that start at once under one id, the one with the smaller incarnation
   /// stays.
   [[nodiscard]] std::optional<Result<MapId>> step();
+  /// Statuses sent: whoever speaks on counts from here.
+  [[nodiscard]] std::uint64_t announced() const { return announced_; }
 
  private:
   void announce();
@@ -39,6 +42,7 @@ class MissionJoin {
   SteadyTime started_;
   SteadyTime announce_due_{};
   std::uint32_t last_map_ = 0;
+  std::uint64_t announced_ = 0;
 };
 
 }  // namespace lifeline::sharing

@@ -29,8 +29,8 @@ SharedMap::SharedMap(LayerKey own_layer, GridGeometry geometry)
 
 Result<bool> SharedMap::follow(const wire::MergeDirective& directive) {
   if (auto sound = check_directive(directive); !sound) return forward_error(sound);
-  if (directive.epoch <= epoch_.value) return false;
-  epoch_ = {directive.epoch};
+  if (directive.epoch <= directive_.epoch) return false;
+  directive_ = directive;
   own_weight_ = directive.own_weight_permille / 1000.0;
   place(directive);
   return true;
@@ -53,13 +53,23 @@ void SharedMap::place(const wire::MergeDirective& directive) {
 }
 
 void SharedMap::update() {
-  for (const auto& changed : store_.take_changed()) {
+  const auto taken_in = store_.take_changed();
+  for (const auto& changed : taken_in) {
     common_map_.mark(changed);
     peers_map_.mark(changed);
   }
   common_map_.update(store_);
+  if (fused_listener_) tell_fused(taken_in);
   const auto changed = peers_map_.update(store_);
   changed_peer_tiles_.insert(changed_peer_tiles_.end(), changed.begin(), changed.end());
+}
+
+void SharedMap::tell_fused(const std::vector<ReplicaStore::ChangedTile>& changed) const {
+  for (const auto& [layer, tile] : changed) {
+    const auto& members = common_map_.placements();
+    if (std::ranges::find(members, layer, &Placement::layer) == members.end()) continue;
+    fused_listener_(layer, tile, store_.find(layer)->at(tile).revision);
+  }
 }
 
 std::optional<PeerUpdate> SharedMap::take_peer_update() {
@@ -84,7 +94,7 @@ RevisionDigest SharedMap::fingerprint() const {
   if (!shares()) return {};
   std::vector<LayerKey> members;
   for (const auto& placement : common_map_.placements()) members.push_back(placement.layer);
-  return sharing::fingerprint(epoch_, members, store_);
+  return sharing::fingerprint(epoch(), members, store_);
 }
 
 Sha256Digest SharedMap::common_map_sha256() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,10 +35,16 @@ class SharedMap {
   /// Brings both maps up to date with layers and directive.
   void update();
 
+  /// Hears of each tile, once it is in the common map, that was taken in since the last update().
+  using FusedListener = std::function<void(const LayerKey&, TileIndex, Revision)>;
+  void set_fused_listener(FusedListener listener) { fused_listener_ = std::move(listener); }
+
   /// Changes of the peers' part since the last call, if any.
   [[nodiscard]] std::optional<PeerUpdate> take_peer_update();
 
-  [[nodiscard]] Epoch epoch() const { return epoch_; }
+  [[nodiscard]] Epoch epoch() const { return {directive_.epoch}; }
+  /// The directive in force; epoch 0 before the first.
+  [[nodiscard]] const wire::MergeDirective& directive() const { return directive_; }
   [[nodiscard]] const FusedMap& common_map() const { return common_map_; }
   /// Of epoch and members' revision vectors; all zero while there is no common map.
   [[nodiscard]] RevisionDigest fingerprint() const;
@@ -47,13 +54,15 @@ class SharedMap {
 
  private:
   void place(const wire::MergeDirective& directive);
+  void tell_fused(const std::vector<ReplicaStore::ChangedTile>& changed) const;
 
   LayerKey own_layer_;
   ReplicaStore store_;
   FusedMap common_map_;
   FusedMap peers_map_;
-  Epoch epoch_{};
+  wire::MergeDirective directive_;
   double own_weight_ = 0.5;
+  FusedListener fused_listener_;
   std::vector<TileIndex> changed_peer_tiles_;
 };
 

@@ -1,71 +1,74 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
-#include <memory>
-#include <utility>
 #include <vector>
 
+#include "agents/sharing/changed_tiles.hpp"
 #include "common/base/time.hpp"
 #include "common/sharing/envelope_stamper.hpp"
+#include "common/sharing/kept_layers.hpp"
+#include "common/sharing/link_budget.hpp"
 #include "common/sharing/replica_store.hpp"
 #include "common/wire/channel.hpp"
 
 namespace lifeline::sharing {
 
-using MapTiles = std::vector<std::pair<TileIndex, std::shared_ptr<const QuantisedTile>>>;
-
 struct TilePublisherConfig {
-  std::uint32_t budget_bit_s = 2'000'000;  ///< of tile payload, averaged over a second
-  Duration min_tile_interval =
-      std::chrono::milliseconds(500);  ///< between two revisions of one tile
+  HoldBackConfig hold_back;
+  /// Publish coarse cells (wire::coarse) and not those given: an eighth of the octets.
+  bool coarse = true;
 };
 
-/// Publishes a helmet's own changed tiles within its budget: tiles that nobody has yet first, then
-/// the most changed. What was published goes into the store as the helmet's own replica, so that it
-/// fuses the very bits that everybody else gets.
+/// Publishes a helmet's own changed tiles, once they are due and the link's budget allows. What was
+/// published goes into the store as the helmet's own replica, so that it fuses the very bits that
+/// everybody else gets.
 class TilePublisher {
  public:
   TilePublisher(TilePublisherConfig config, LayerKey layer, Speaker speaker,
                 wire::Outbox<wire::TsdTile>& outbox);
 
+  /// Goes on after a restart: `tiles` were published before, and are published again as they were,
+  /// for whoever comes later; to whoever has them it changes nothing. Every revision from here on
+  /// is above `newest_before`.
+  void resume(const KeptTiles& tiles, Revision newest_before);
+
   /// Notes changed tiles; a newer state of a waiting tile replaces the older one.
-  void put(const MapTiles& tiles);
+  /// `scanned_at`: when the oldest scan was taken that is new in them.
+  void put(const MapTiles& tiles, SteadyTime scanned_at = {}) { changed_.put(tiles, scanned_at); }
+
+  /// Hears of each revision that left, and when the oldest scan was taken that it is the first to
+  /// hold.
+  using Listener = std::function<void(TileIndex, Revision, SteadyTime scanned_at)>;
+  void set_listener(Listener listener) { listener_ = std::move(listener); }
+
+  /// Whether no more tiles will come for now.
+  void set_finished(bool finished) { changed_.set_finished(finished); }
 
   /// Publishes what is due. An error names the first sample that the middleware refused; it stays
   /// waiting.
-  [[nodiscard]] Result<void> step(SteadyTime now, Timestamp wall_now, ReplicaStore& store);
+  [[nodiscard]] Result<void> step(SteadyTime now, Timestamp wall_now, ReplicaStore& store,
+                                  LinkBudget& link);
 
-  [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
+  [[nodiscard]] std::size_t waiting() const { return changed_.waiting() + again_.size(); }
 
  private:
-  struct Published {
-    SteadyTime at;
-    std::shared_ptr<const QuantisedTile> cells;
-  };
-  struct Due {
-    TileIndex tile;
-    std::size_t changed_cells;
-  };
+  [[nodiscard]] Result<void> publish(const ChangedTiles::Due& due, SteadyTime now,
+                                     Timestamp wall_now, ReplicaStore& store, LinkBudget& link);
+  [[nodiscard]] Result<void> publish_again(Timestamp wall_now, LinkBudget& link);
+  [[nodiscard]] Result<void> send(std::vector<wire::TsdTile> parts, Timestamp wall_now,
+                                  LinkBudget& link);
 
-  void refill(SteadyTime now);
-  [[nodiscard]] std::vector<Due> due(SteadyTime now);
-  [[nodiscard]] std::size_t changed_cells(TileIndex tile, const QuantisedTile& cells) const;
-  [[nodiscard]] Result<void> publish(TileIndex tile, SteadyTime now, Timestamp wall_now,
-                                     ReplicaStore& store);
-  [[nodiscard]] Result<void> send(TileIndex tile, Revision revision, Timestamp wall_now,
-                                  const std::vector<std::uint8_t>& payload);
-
-  TilePublisherConfig config_;
   LayerKey layer_;
   EnvelopeStamper stamper_;
   wire::Outbox<wire::TsdTile>& outbox_;
-  std::map<TileIndex, std::shared_ptr<const QuantisedTile>> waiting_;
-  std::map<TileIndex, Published> published_;
+  ChangedTiles changed_;
   /// Also of what was sent in part only: no two contents may share a revision.
   std::map<TileIndex, Revision> newest_revisions_;
-  double allowance_bits_;
-  SteadyTime refilled_at_{};
+  Revision newest_before_{};  ///< that any process before this one may have given
+  std::map<TileIndex, KeptTile> again_;
+  Listener listener_;
 };
 
 }  // namespace lifeline::sharing

@@ -11,8 +11,10 @@ constexpr int kFull = FitField::kFull;
 }  // namespace
 
 GlobalSearchResult GlobalSearch::search(std::span<const Eigen::Vector2d> points, double yaw_rad,
-                                        double window_rad) {
+                                        double window_rad,
+                                        const std::optional<SearchCircle>& circle) {
   found_.clear();
+  circle_ = circle;
   best_ = 0;
   complete_ = true;
   nodes_left_ = config_.max_nodes;
@@ -73,8 +75,18 @@ void GlobalSearch::bound_blocks(int yaw, std::vector<Node>& nodes) {
   const int least = least_score();
   for (std::size_t block = 0; block < sums_.size(); ++block) {
     if (sums_[block] < least || !field_.has_free_place(block)) continue;
+    if (!reaches(field_.corner_of(block), 1 << (FitField::kLevels - 1))) continue;
     nodes.push_back({sums_[block], yaw, field_.corner_of(block)});
   }
+}
+
+/// Whether any of a square of places is in the circle.
+bool GlobalSearch::reaches(Place corner, int side) const {
+  if (!circle_) return true;
+  const Eigen::Vector2d low = field_.centre_of(corner);
+  const Eigen::Vector2d high = low.array() + (side - 1) * field_.spacing_m();
+  const Eigen::Vector2d nearest = circle_->centre_m.cwiseMax(low).cwiseMin(high);
+  return (nearest - circle_->centre_m).norm() <= circle_->radius_m;
 }
 
 int GlobalSearch::score(int level, Place corner, int least) const {
@@ -93,7 +105,8 @@ int GlobalSearch::score(int level, Place corner, int least) const {
 
 void GlobalSearch::descend(Place corner, int level, double yaw_rad) {
   if (level == 0) {
-    if (field_.is_free(corner)) note(score(0, corner, least_score()), corner, yaw_rad);
+    if (field_.is_free(corner) && reaches(corner, 1))
+      note(score(0, corner, least_score()), corner, yaw_rad);
     return;
   }
   const int half = 1 << (level - 1);
@@ -143,7 +156,8 @@ void GlobalSearch::note(int score, Place place, double yaw_rad) {
 
 int GlobalSearch::least_score() const {
   const double points = static_cast<double>(points_.size());
-  return std::max(static_cast<int>(std::ceil(config_.min_agreement * kFull * points)),
+  const double min_agreement = circle_ ? circle_->min_agreement : config_.min_agreement;
+  return std::max(static_cast<int>(std::ceil(min_agreement * kFull * points)),
                   best_ - static_cast<int>(config_.margin * kFull * points));
 }
 

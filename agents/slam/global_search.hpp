@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,14 @@ struct GlobalCandidate {
   double agreement = 0.0;
 };
 
+/// A circle in map that the head must be in. A search so small can afford to look for places that
+/// the map knows only in part.
+struct SearchCircle {
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
+  double radius_m = 0.0;
+  double min_agreement = 0.0;  ///< instead of the whole map's
+};
+
 /// What a search found.
 struct GlobalSearchResult {
   std::vector<GlobalCandidate> candidates;  ///< distinct, best first
@@ -53,9 +62,10 @@ class GlobalSearch {
   [[nodiscard]] bool has_map() const { return !field_.empty(); }
 
   /// The places in known free space where a head that sees `points` (head frame) may stand, turned
-  /// by `yaw_rad` +- `window_rad`.
+  /// by `yaw_rad` +- `window_rad`; only in `circle`, if there is one.
   [[nodiscard]] GlobalSearchResult search(std::span<const Eigen::Vector2d> points, double yaw_rad,
-                                          double window_rad);
+                                          double window_rad,
+                                          const std::optional<SearchCircle>& circle = {});
 
  private:
   using Place = FitField::Place;
@@ -66,6 +76,7 @@ class GlobalSearch {
     Place corner;
   };
 
+  [[nodiscard]] bool reaches(Place corner, int side) const;
   void choose_points(std::span<const Eigen::Vector2d> points);
   void turn_points(double yaw_rad);
   void bound_blocks(int yaw, std::vector<Node>& nodes);
@@ -80,6 +91,7 @@ class GlobalSearch {
   std::vector<Place> offsets_;  ///< of the turned points from the head
   std::vector<std::int16_t> sums_;
   std::vector<GlobalCandidate> found_;
+  std::optional<SearchCircle> circle_;
   int best_ = 0;
   int nodes_left_ = 0;
   bool complete_ = true;

@@ -46,6 +46,10 @@ class MotionModel {
   void found(const Pose2& T_map_head);
   /// The last match left the place open by this much.
   void doubt(double sigma_xy_m) { sigma_xy_m_ = sigma_xy_m; }
+  void doubt(double sigma_xy_m, double sigma_yaw_rad) {
+    sigma_xy_m_ = sigma_xy_m;
+    sigma_yaw_rad_ = sigma_yaw_rad;
+  }
   /// The scan was not matched: the prediction stands, and its uncertainty stays.
   void lost(const Prediction& prediction, const MotionPrior& prior);
 

@@ -11,24 +11,42 @@
 
 namespace lifeline::slam {
 
+/// What the points seen must say at a place that is believed.
+struct PlaceDemands {
+  double min_known_share = 0.0;     ///< of the points, where the map knows anything
+  double max_conflict_share = 0.0;  ///< of these, in space the map knows as free
+};
+
 /// When a place is believed. The defaults are meant to be wrong in none of some hundred thousand
 /// cases rather than quick (docs/decisions/0207).
 struct RelocaliseConfig {
   GlobalSearchConfig search;
   StretchConfig stretch;
-  double min_known_share = 0.7;      ///< of the points seen, where the map knows anything
-  double min_inlier_share = 0.85;    ///< of these
-  double max_conflict_share = 0.04;  ///< of these, in space the map knows as free
-  double max_gone_share = 0.08;      ///< of the map's walls here: space seen free now
-  double margin = 0.15;              ///< in quality, to the second distinct place
-  int attempts = 3;                  ///< in a row that must agree ...
-  double moved_m = 2.0;              ///< ... over a way this long
-  double same_m = 0.2;               ///< they agree up to this ...
-  double same_rad = 0.06;            ///< ... and this
-  double attempt_distance_m = 0.1;   ///< between attempts, or ...
-  int attempt_scans = 5;             ///< ... so many scans
-  double heading_sigmas = 3.0;       ///< that the heading may be off ...
-  double heading_floor_rad = 0.15;   ///< ... and this beside
+  PlaceDemands anywhere{.min_known_share = 0.7, .max_conflict_share = 0.04};
+  double min_inlier_share = 0.85;   ///< of the points that the map knows
+  double max_gone_share = 0.08;     ///< of the map's walls here: space seen free now
+  double margin = 0.15;             ///< in quality, to the second distinct place
+  int attempts = 3;                 ///< in a row that must agree ...
+  double moved_m = 2.0;             ///< ... over a way this long
+  double same_m = 0.2;              ///< they agree up to this ...
+  double same_rad = 0.06;           ///< ... and this
+  double attempt_distance_m = 0.1;  ///< between attempts, or ...
+  int attempt_scans = 5;            ///< ... so many scans
+  double heading_sigmas = 3.0;      ///< that the heading may be off ...
+  double heading_floor_rad = 0.15;  ///< ... and this beside
+  double stayed_m = 1.0;  ///< a helmet found this near to where it was last known needs no way
+  // Of a helmet that was known moments ago, in what it can have reached since, if that is not far:
+  double near_most_m = 15.0;
+  PlaceDemands near{.min_known_share = 0.45, .max_conflict_share = 0.02};
+  double near_agreement = 0.35;  ///< that a place must have to be looked at
+  double near_moved_m = 0.5;     ///< way over which the attempts agree
+  int near_scans = 100;          ///< after these where it was last is no evidence any more
+};
+
+/// Where a helmet was known to be moments ago.
+struct Whereabouts {
+  Pose2 T_map_head;
+  double reach_m = 0.0;  ///< no further from there can it be now
 };
 
 /// A place looked at closely.
@@ -56,8 +74,11 @@ class Relocaliser {
   Relocaliser(RelocaliseConfig config, GridGeometry geometry, PushConfig push, MotionConfig motion,
               MapTracker tracker, DirectConfig direct);
 
-  /// Begins anew, with the map as it is now.
-  void begin();
+  /// Begins anew, with the map as it is now. `last`: where the helmet was known to be moments ago,
+  /// if it was. Places in its reach come first: neither do equal places further off count, nor need
+  /// the map know so much of what is seen there, and a shorter way is enough; none where the helmet
+  /// has stayed, for who stands still while the helmet restarts must be found, too.
+  void begin(std::optional<Whereabouts> last = {});
   /// The map has changed, by peers' tiles.
   void map_changed() { map_is_stale_ = true; }
   /// Frees what is not needed while tracking.
@@ -75,12 +96,28 @@ class Relocaliser {
 
  private:
   [[nodiscard]] bool attempt_is_due();
-  [[nodiscard]] AttemptOutcome attempt(const WorkingMap& map, double heading_rad, double window_rad,
-                                       RelocalisedPlace& best);
+  /// Empty: nothing near to the last place, and not yet time to look in the whole map.
+  [[nodiscard]] std::optional<AttemptOutcome> attempt(const WorkingMap& map, double heading_rad,
+                                                      double window_rad, RelocalisedPlace& best);
   [[nodiscard]] RelocalisedPlace look_at(const WorkingMap& map, const Pose2& T_map_head,
                                          double reach_m);
   [[nodiscard]] double gone_share(const Pose2& T_map_head) const;
-  [[nodiscard]] bool is_good(const RelocalisedPlace& place) const;
+  [[nodiscard]] bool is_good(const RelocalisedPlace& place, const PlaceDemands& demands) const;
+  /// No other of the places comes near it in quality.
+  [[nodiscard]] bool is_alone(const RelocalisedPlace& place,
+                              const std::vector<RelocalisedPlace>& places) const;
+  /// The best places that a search finds, in the whole map or where the helmet can have got to.
+  [[nodiscard]] AttemptOutcome look_round(const WorkingMap& map, double heading_rad,
+                                          double window_rad,
+                                          const std::optional<SearchCircle>& near,
+                                          RelocalisedPlace& best);
+  [[nodiscard]] AttemptOutcome judge(std::vector<RelocalisedPlace> places, bool complete,
+                                     const PlaceDemands& demands, RelocalisedPlace& best) const;
+  /// How far a helmet that is here now was from where it was last known, when its stretch began.
+  [[nodiscard]] double from_last_m(const Pose2& T_map_head) const;
+  [[nodiscard]] bool is_last_known() const;
+  [[nodiscard]] bool is_near() const;
+  [[nodiscard]] double way_needed_m(const Pose2& T_map_head) const;
   [[nodiscard]] bool agrees(const Pose2& T_map_head);
 
   RelocaliseConfig config_;
@@ -92,6 +129,11 @@ class Relocaliser {
   int scans_since_attempt_ = 0;
   Pose2 T_stretch_attempt_;
   int attempt_stretch_ = 0;
+  std::optional<Whereabouts> last_;
+  int scans_since_last_ = 0;
+  int near_in_vain_ = 0;  ///< attempts that found nothing there
+  int last_stretch_ = 0;  ///< the stretch that began there
+  std::vector<SurfacePiece> cloud_;
   /// What the attempts so far agree on.
   struct Agreement {
     int attempts = 0;

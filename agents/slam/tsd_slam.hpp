@@ -53,8 +53,16 @@ struct SlamConfig {
   LoopConfig loops;
   StoryConfig stories;
   int lost_after_scans = 3;  ///< that nothing matched, in a row, before the helmet counts as lost
+  double walked_m_s = 1.0;   ///< that a helmet may have moved unseen, one standard deviation ...
+  double fastest_m_s = 2.0;  ///< ... and at the most
   double recovered_sigma_m = 0.1;  ///< after so many, a place less sure is not pushed at
   RelocaliseConfig relocalise;
+};
+
+/// Where a helmet was before a restart.
+struct LastPlace {
+  Pose2 T_map_head;
+  Duration ago{};
 };
 
 /// What one scan did.
@@ -79,8 +87,10 @@ class TsdSlam {
   [[nodiscard]] SlamStep step(const Scan2& scan, const MotionPrior& prior,
                               bool is_doubtful = false);
   /// Goes on in a map made before, of this geometry: lost, until the first scans are found in it.
-  /// Before the first step().
-  void resume(TsdGrid layer);
+  /// `last`: where the helmet was known to be moments ago, if it was. If those are so few that the
+  /// search round that place reaches far enough, they are a short blindness. Before the first
+  /// step().
+  void resume(TsdGrid layer, std::optional<LastPlace> last = {});
   /// Lost: nothing matched for so long that the place may be anywhere. Nothing is pushed until it
   /// is found again, and the trust is 0.
   [[nodiscard]] bool is_lost() const { return lost_; }
@@ -92,8 +102,9 @@ class TsdSlam {
   /// The layer's tiles changed since the last call, ordered.
   [[nodiscard]] std::vector<TileIndex> take_changed_tiles();
 
-  /// Where the scans were taken, by all that is known now: all but the last few.
-  [[nodiscard]] std::vector<StampedPose> trajectory() const;
+  /// Where the scans from number `first` on were taken, by all that is known now: all but the last
+  /// few.
+  [[nodiscard]] std::vector<StampedPose> trajectory(std::size_t first = 0) const;
   /// Settles the last few by what is known: no more scans will come.
   void settle_all();
   /// Looks once more for a place for the scans that found none, now that the map holds what came
@@ -174,7 +185,8 @@ class TsdSlam {
   StageTimes* times_ = nullptr;
   bool started_ = false;
   bool lost_ = false;
-  bool resumed_ = false;  ///< the layer holds what no keyframe knows of
+  std::optional<Whereabouts> last_;  ///< while nothing was matched since resume()
+  bool resumed_ = false;             ///< the layer holds what no keyframe knows of
   /// After scans that nothing matched: a match that leaves the place open does not end it.
   bool recovering_ = false;
   int rejected_in_a_row_ = 0;

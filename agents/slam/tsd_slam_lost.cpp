@@ -9,6 +9,12 @@
 #include "common/base/check.hpp"
 
 namespace lifeline::slam {
+namespace {
+
+/// A search that reaches so far is worth it: who stood farther off is looked for as lost.
+constexpr double kReachedSigmas = 1.5;
+
+}  // namespace
 
 void TsdSlam::recover(MatchResult& match, MotionModel& motion) const {
   motion.found(match.T_map_head);
@@ -25,10 +31,12 @@ void TsdSlam::note_match(const MotionPrior& prior) {
       })) {
     rejected_in_a_row_ = 0;
     heading_variance_ = 0.0;
+    last_.reset();
     recovering_ = recovering_ && last.match.verdict != Verdict::accepted;
     return;
   }
   ++rejected_in_a_row_;
+  if (last_) last_->reach_m += config_.fastest_m_s * to_seconds(prior.elapsed);
   recovering_ = recovering_ || rejected_in_a_row_ >= config_.lost_after_scans;
   add_heading_doubt(prior);
   const SearchConfig& search = config_.search;
@@ -42,7 +50,7 @@ void TsdSlam::note_match(const MotionPrior& prior) {
   lost_ = true;
   stories_.erase(stories_.begin() + 1, stories_.end());
   trust_percent_ = 0;
-  relocaliser_.begin();
+  relocaliser_.begin(last_);
 }
 
 void TsdSlam::add_heading_doubt(const MotionPrior& prior) {
@@ -81,6 +89,7 @@ SlamStep TsdSlam::step_lost(const MotionPrior& prior) {
     recovering_ = false;
     rejected_in_a_row_ = 0;
     heading_variance_ = 0.0;
+    last_.reset();
     relocaliser_.end();
     change_trust(step.verdict);
   }
@@ -106,14 +115,26 @@ void TsdSlam::reckon(const MotionPrior& prior, const std::optional<Pose2>& T_pre
   }
 }
 
-void TsdSlam::resume(TsdGrid layer) {
+void TsdSlam::resume(TsdGrid layer, std::optional<LastPlace> last) {
   LIFELINE_CHECK(!started_ && layer.geometry() == map_.geometry());
   map_.own() = std::move(layer);
   for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
   tracker_.forget_all();
-  started_ = lost_ = resumed_ = true;
+  started_ = resumed_ = true;
   heading_variance_ = std::numbers::pi * std::numbers::pi;
-  relocaliser_.begin();
+  if (last) {
+    last_ = Whereabouts{last->T_map_head,
+                        config_.relocalise.stayed_m + config_.fastest_m_s * to_seconds(last->ago)};
+    stories_.front().motion.reset(last->T_map_head);
+    const double walked_m = config_.walked_m_s * to_seconds(last->ago);
+    if (kReachedSigmas * walked_m <= config_.search.max_window_m) {
+      stories_.front().motion.doubt(walked_m, config_.motion.lost_max_yaw_rad);
+      recovering_ = true;
+      return;
+    }
+  }
+  lost_ = true;
+  relocaliser_.begin(last_);
 }
 
 }  // namespace lifeline::slam

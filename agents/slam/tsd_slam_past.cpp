@@ -58,10 +58,11 @@ void TsdSlam::settle_all() {
   settle(0);
 }
 
-std::vector<StampedPose> TsdSlam::trajectory() const {
+std::vector<StampedPose> TsdSlam::trajectory(std::size_t first) const {
   std::vector<StampedPose> trajectory;
-  trajectory.reserve(settled_.size());
-  for (const SettledScan& scan : settled_) trajectory.push_back({scan.stamp, pose_of(scan)});
+  for (std::size_t i = first; i < settled_.size(); ++i) {
+    trajectory.push_back({settled_[i].stamp, pose_of(settled_[i])});
+  }
   return trajectory;
 }
 

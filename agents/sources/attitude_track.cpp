@@ -89,6 +89,26 @@ Result<void> AttitudeTrack::read_ahead(Timestamp stamp, SteadyTime deadline) {
   return {};
 }
 
+Result<void> AttitudeTrack::follow_set_back(Timestamp stamp) {
+  if (!after_ || after_->stamp - stamp <= kReach) return {};
+  if (before_ && before_->stamp <= stamp) return {};
+  for (;;) {
+    const auto next = read(std::chrono::steady_clock::now());
+    if (!next) return forward_error(next);
+    if (!*next) return {};
+    const Sample& newest = ahead_.empty() ? *after_ : ahead_.back();
+    if (newest.stamp - (*next)->stamp > kReach) {
+      before_.reset();
+      after_ = *next;
+      ahead_.clear();
+      if (after_->stamp - stamp <= kReach) return {};
+    } else {
+      if (ahead_.size() == kMostAhead) ahead_.pop_front();
+      ahead_.push_back(**next);
+    }
+  }
+}
+
 bool AttitudeTrack::is_behind(Timestamp stamp) const {
   if (!ahead_.empty()) return ahead_.back().stamp < stamp;
   return !after_ || after_->stamp < stamp;

@@ -43,6 +43,11 @@ class AttitudeTrack {
   /// the sweep is left to the attitude at its stamp.
   [[nodiscard]] Result<void> fill(sensing::RawScan& scan, SteadyTime deadline = SteadyTime::max());
 
+  /// For a live source whose clock may be set back: before a scan at `stamp`. Where all that was
+  /// read lies far ahead of it, reads what is there without waiting, and begins anew at a sample
+  /// far behind the one before it.
+  [[nodiscard]] Result<void> follow_set_back(Timestamp stamp);
+
   /// Whether no sample as late as `stamp` has been read yet.
   [[nodiscard]] bool is_behind(Timestamp stamp) const;
   [[nodiscard]] sensing::AttitudeHealth health() const { return source_->health(); }

@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "common/bag/bag_file.hpp"
 #include "common/base/result.hpp"
 
 namespace lifeline::sources {
 
-struct BagTopic {
-  std::string name;
-  std::string type;  ///< `sensor_msgs/msg/LaserScan`; in ROS 1 bags without `msg/`
-};
+/// In ROS 1 bags the type is written without `msg/`.
+using BagTopic = bag::Topic;
 
 /// One serialized message of a topic.
 struct BagMessage {

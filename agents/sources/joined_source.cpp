@@ -11,6 +11,7 @@ Result<std::optional<sensing::RawScan>> JoinedSource::next() {
   auto scan = scans_->next();
   if (!scan || !*scan) return scan;
   sensing::RawScan& raw = **scan;
+  if (auto followed = track_.follow_set_back(raw.stamp); !followed) return forward_error(followed);
   const SteadyTime deadline = std::chrono::steady_clock::now() + kPatience;
   if (auto filled = track_.fill(raw, deadline); !filled) return forward_error(filled);
   raw.attitude_health = track_.health();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "agents/sources/cdr_reader.hpp"
+#include "common/ros2/cdr_reader.hpp"
 
 namespace lifeline::sources {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 constexpr double kFarthest_m = 1000.0;
 constexpr double kLongestSweep_s = 10.0;
 
-Result<CdrReader> open(std::span<const std::uint8_t> bytes, RosVersion version) {
-  if (version == RosVersion::ros1) return CdrReader::open_ros1(bytes);
-  return CdrReader::open_cdr(bytes);
+Result<ros2::CdrReader> open(std::span<const std::uint8_t> bytes, RosVersion version) {
+  if (version == RosVersion::ros1) return ros2::CdrReader::open_ros1(bytes);
+  return ros2::CdrReader::open_cdr(bytes);
 }
 
 /// std_msgs/Header: its stamp; empty where the nanoseconds are not below one second.
-std::optional<Timestamp> read_header(CdrReader& reader, RosVersion version) {
+std::optional<Timestamp> read_header(ros2::CdrReader& reader, RosVersion version) {
   std::int64_t seconds = 0;
   if (version == RosVersion::ros1) {
     (void)reader.read<std::uint32_t>();  // seq
@@ -62,7 +62,7 @@ Result<sensing::RawScan> decode_laser_scan(std::span<const std::uint8_t> bytes,
                                            RosVersion version) {
   auto opened = open(bytes, version);
   if (!opened) return forward_error(opened);
-  CdrReader& reader = *opened;
+  ros2::CdrReader& reader = *opened;
   const auto stamp = read_header(reader, version);
   sensing::RawScan scan;
   scan.first_angle_rad = reader.read<float>();
@@ -88,7 +88,7 @@ Result<sensing::RawScan> decode_laser_scan(std::span<const std::uint8_t> bytes,
 Result<ImuSample> decode_imu(std::span<const std::uint8_t> bytes, RosVersion version) {
   auto opened = open(bytes, version);
   if (!opened) return forward_error(opened);
-  CdrReader& reader = *opened;
+  ros2::CdrReader& reader = *opened;
   const auto stamp = read_header(reader, version);
   const double x = reader.read<double>(), y = reader.read<double>();
   const double z = reader.read<double>(), w = reader.read<double>();

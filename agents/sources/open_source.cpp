@@ -7,6 +7,7 @@
 #include "agents/sources/carmen_source.hpp"
 #include "agents/sources/columns_source.hpp"
 #include "agents/sources/joined_source.hpp"
+#include "agents/sources/ros2_source.hpp"
 #include "agents/sources/rosbag2_source.hpp"
 #include "agents/sources/simulator/simulated_source.hpp"
 #include "agents/sources/source_spec.hpp"
@@ -16,19 +17,20 @@ namespace {
 
 /// A device gives its scans at its own pace.
 bool is_live(const SourceSpec& spec) {
-  return spec.kind == "rplidar";
+  return spec.kind == "rplidar" || spec.kind == "ros2";
 }
 
 Result<std::unique_ptr<sensing::ScanSource>> open_kind(const SourceSpec& spec,
                                                        const std::stop_token& stop) {
   if (spec.kind == "carmen") return open_carmen_source(spec);
   if (spec.kind == "columns") return open_columns_source(spec);
+  if (spec.kind == "ros2") return open_ros2_source(spec, stop);
   if (spec.kind == "rosbag2") return open_rosbag2_source(spec);
   if (spec.kind == "rplidar") return rplidar::open_rplidar_source(spec, stop);
   if (spec.kind == "sim") return open_simulated_source(spec);
   return fail(
       ErrorCode::wrong_use,
-      "source '{}:{}': unknown kind '{}'; there are: carmen, columns, rosbag2, rplidar, sim",
+      "source '{}:{}': unknown kind '{}'; there are: carmen, columns, ros2, rosbag2, rplidar, sim",
       spec.kind, spec.target, spec.kind);
 }
 
@@ -65,6 +67,12 @@ Result<std::unique_ptr<sensing::ScanSource>> open_source_with_attitude(
   if (!options) return forward_error(options);
   const auto scan_spec = parse_source_spec(source);
   if (!scan_spec) return forward_error(scan_spec);
+  if (scan_spec->kind == "ros2") {
+    return fail(ErrorCode::wrong_use,
+                "attitude '{}': source '{}' takes its attitude by a topic: write "
+                "ros2:/scan,/imu/data, and leave --attitude out",
+                attitude, source);
+  }
   if (!is_live(*scan_spec)) {
     return fail(ErrorCode::wrong_use,
                 "attitude '{}': source '{}' is no live lidar, it brings its own attitude; leave "

@@ -29,29 +29,18 @@ struct Bag {
   std::vector<std::string> files;
 };
 
-std::vector<std::string> files_ending(const fs::path& folder, std::string_view ending) {
-  std::vector<std::string> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (entry->path().string().ends_with(ending)) files.push_back(entry->path().string());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 Result<Bag> find_in_folder(const std::string& folder) {
-  if (auto files = files_ending(folder, ".db3"); !files.empty()) {
+  if (auto files = bag::files_ending(folder, ".db3"); !files.empty()) {
     return Bag{RosVersion::ros2, std::move(files)};
   }
-  auto bags = files_ending(folder, ".bag");
+  auto bags = bag::files_ending(folder, ".bag");
   if (bags.size() == 1) return Bag{RosVersion::ros1, std::move(bags)};
   if (!bags.empty()) {
     return fail(ErrorCode::wrong_use, "{}: holds {} .bag files: name one of them", folder,
                 bags.size());
   }
   for (const std::string_view ending : {".mcap", ".zstd"}) {
-    if (files_ending(folder, ending).empty()) continue;
+    if (bag::files_ending(folder, ending).empty()) continue;
     return fail(ErrorCode::unsupported,
                 "{}: holds only {} files: convert them to uncompressed sqlite3 with ros2 bag "
                 "convert",

@@ -83,7 +83,7 @@ Doors::Doors(std::vector<Doorway> doorways, When when, std::uint64_t seed)
   if (when_ == When::never) return;
   for (const Doorway& doorway : doorways) {
     const bool closed = draw_.chance(0.5);
-    doors_.push_back({{doorway.a, doorway.b}, closed, 0.0});
+    doors_.push_back({{doorway.a, doorway.b}, doorway.glass, closed, 0.0});
     doors_.back().next_change = draw_.between(0.0, 1.0) * next_time(0.0);
   }
 }
@@ -94,6 +94,7 @@ double Doors::next_time(double t_s) {
 
 void Doors::advance(double t_s, const Eigen::Vector2d& p_world) {
   closed_.clear();
+  closed_glass_.clear();
   for (Door& door : doors_) {
     const double off_m = distance_to(door.leaf, p_world);
     const bool changes = when_ == When::timetable || off_m <= kBesideM;
@@ -101,7 +102,8 @@ void Doors::advance(double t_s, const Eigen::Vector2d& p_world) {
       door.wants_closed = !door.wants_closed;
       door.next_change = next_time(t_s);
     }
-    if (door.wants_closed && off_m > kClearM) closed_.push_back(door.leaf);
+    if (!door.wants_closed || off_m <= kClearM) continue;
+    (door.glass ? closed_glass_ : closed_).push_back(door.leaf);
   }
 }
 

@@ -36,13 +36,16 @@ class Doors {
   /// Moves time on; the walker is at p_world. Times in seconds, never backwards.
   void advance(double t_s, const Eigen::Vector2d& p_world);
 
-  /// Those that are closed now.
+  /// Those that are closed now, but for doors of glass.
   [[nodiscard]] std::span<const WallSegment> closed() const { return closed_; }
+  /// The doors of glass that are closed now.
+  [[nodiscard]] std::span<const WallSegment> closed_glass() const { return closed_glass_; }
   [[nodiscard]] std::size_t count() const { return doors_.size(); }
 
  private:
   struct Door {
     WallSegment leaf;
+    bool glass;
     bool wants_closed;   // by its clock; stands open as long as the walker is in its way
     double next_change;  // seconds
   };
@@ -51,7 +54,7 @@ class Doors {
   When when_;
   Draw draw_;
   std::vector<Door> doors_;
-  std::vector<WallSegment> closed_;
+  std::vector<WallSegment> closed_, closed_glass_;
 };
 
 }  // namespace lifeline::sources

@@ -118,7 +118,9 @@ void FreeSpace::mark_floor(const FloorPlan& plan) {
 
 void FreeSpace::measure_distances(const FloorPlan& plan) {
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kFarM);
-  for (const WallSegment& wall : plan.walls) {
+  std::vector<WallSegment> walls = plan.walls;
+  walls.insert(walls.end(), plan.panes.begin(), plan.panes.end());
+  for (const WallSegment& wall : walls) {
     // Piece by piece, so that a long slanted wall does not touch the whole raster.
     const int pieces = static_cast<int>((wall.b - wall.a).norm()) + 1;
     for (int i = 0; i < pieces; ++i) {

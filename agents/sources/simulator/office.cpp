@@ -1,8 +1,5 @@
 #include "agents/sources/simulator/office.hpp"
 
-#include "agents/sources/simulator/office_furniture.hpp"
-#include "agents/sources/simulator/office_layout.hpp"
-
 namespace lifeline::sources {
 
 Result<FloorPlan> generate_office(const OfficeOptions& options) {
@@ -16,6 +13,12 @@ Result<FloorPlan> generate_office(const OfficeOptions& options) {
   const OfficeLayout layout = lay_out_office(options.width_m, options.depth_m, layout_draw);
   const OfficeFurniture furniture = furnish_office(layout, furniture_draw);
 
+  FloorPlan plan = build_office(layout, furniture);
+  plan.name = fmt::format("office, seed {}", options.seed);
+  return plan;
+}
+
+FloorPlan build_office(const OfficeLayout& layout, const OfficeFurniture& furniture) {
   std::vector<Box> floors, with_outer_walls;
   for (const auto* boxes : {&layout.rooms, &layout.corridors, &layout.openings}) {
     floors.insert(floors.end(), boxes->begin(), boxes->end());
@@ -25,11 +28,11 @@ Result<FloorPlan> generate_office(const OfficeOptions& options) {
     with_outer_walls.emplace_back(floor.min() - thickness, floor.max() + thickness);
   }
   FloorPlan plan;
-  plan.name = fmt::format("office, seed {}", options.seed);
   plan.walls = border_of(floors, furniture.boxes);
   plan.walls.insert(plan.walls.end(), furniture.loops.begin(), furniture.loops.end());
   plan.outline = border_of(with_outer_walls, {});
   plan.doorways = layout.doorways;
+  plan.rooms = layout.rooms;
   return plan;
 }
 

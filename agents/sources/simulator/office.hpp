@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "agents/sources/simulator/office_furniture.hpp"
+#include "agents/sources/simulator/office_layout.hpp"
 #include "agents/sources/simulator/plan.hpp"
 #include "common/base/result.hpp"
 
@@ -23,5 +25,8 @@ struct OfficeOptions {
 /// lower left corner of the outer walls is the world's origin. wrong_use for a side outside the
 /// limits.
 [[nodiscard]] Result<FloorPlan> generate_office(const OfficeOptions& options);
+
+/// The plan of a floor that was laid out and furnished: walls, outline, rooms and doorways.
+[[nodiscard]] FloorPlan build_office(const OfficeLayout& layout, const OfficeFurniture& furniture);
 
 }  // namespace lifeline::sources

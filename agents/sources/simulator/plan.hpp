@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,20 @@ struct WallSegment {
 struct Doorway {
   Eigen::Vector2d a;
   Eigen::Vector2d b;
+  bool glass = false;  ///< what its door is made of
+};
+
+/// What a wall is made of, as a lidar sees it.
+enum class Material : std::uint8_t {
+  plain,
+  glass,  ///< lets beams through, but for those that meet it about at right angles
+  black,  ///< swallows them
+};
+
+/// A part of the floor whose ceiling is not as high as elsewhere.
+struct CeilingArea {
+  Eigen::AlignedBox2d area;
+  double height_m = 0.0;  ///< above the floor
 };
 
 /// One storey of a building. World frame: x right, y up, metres.
@@ -28,7 +43,12 @@ struct FloorPlan {
   std::vector<WallSegment> walls;
   /// Closed loops of the faces that only someone outside sees. May be empty.
   std::vector<WallSegment> outline;
-  std::vector<Doorway> doorways;  ///< empty where the plan's origin does not tell them
+  std::vector<Doorway> doorways;         ///< empty where the plan's origin does not tell them
+  std::vector<Material> materials = {};  ///< of each of `walls`; empty: all are plain
+  std::vector<WallSegment> panes = {};   ///< of glass, standing on the floor: no part of a loop
+  std::vector<Eigen::AlignedBox2d> rooms =
+      {};                                  ///< empty where the plan's origin does not tell them
+  std::vector<CeilingArea> ceilings = {};  ///< they do not overlap
 
   /// The box round all walls. Empty (isEmpty()) for a plan without walls.
   [[nodiscard]] Eigen::AlignedBox2d bounds() const;

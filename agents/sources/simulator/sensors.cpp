@@ -5,18 +5,21 @@
 #include <limits>
 #include <numbers>
 
-#include <Eigen/Geometry>
-
 namespace lifeline::sources {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
+/// Glass: of 8 deg, and the share of echoes that come back through a pane.
+constexpr double kMirrorCosine = 0.990268;
+constexpr double kPassesShare = 6.0 / 7.0;
+/// Smoke: what share of lost echoes it sends back itself, and from how deep, of the sight.
+constexpr double kSmokeShare = 0.3;
+constexpr double kSmokeDepth = 0.2;
 
 }  // namespace
 
-sensing::RawScan SimulatedLidar::sweep(const RayScene& scene, const Motion& head, double t_s,
-                                       std::span<const WallSegment> more_walls) {
+sensing::RawScan SimulatedLidar::sweep(const Surroundings& around, const Motion& head, double t_s) {
   sensing::RawScan scan;
   const double step_s = options_.takes_time ? 1.0 / (options_.turns_per_s * options_.beams) : 0.0;
   scan.sweep_time = from_seconds(step_s * (options_.beams - 1));
@@ -25,51 +28,46 @@ sensing::RawScan SimulatedLidar::sweep(const RayScene& scene, const Motion& head
   scan.range_min_m = options_.range_min_m;
   scan.range_max_m = options_.range_max_m;
   scan.ranges_m.reserve(static_cast<std::size_t>(options_.beams));
+  Surroundings below_ceiling = around;
+  if (below_ceiling.ceilings == nullptr) below_ceiling.ceilings = &plain_ceiling_;
   HeadPose pose = head(t_s);
   scan.T_world_head_truth = pose.T_world_head;
   for (int beam = 0; beam < options_.beams; ++beam) {
     if (options_.takes_time) pose = head(t_s + step_s * beam);
-    const double turned_rad = scan.angle_step_rad * beam;
-    scan.ranges_m.push_back(read(cast(scene, more_walls, pose, turned_rad)));
+    const LidarBeam ray = beam_of(pose, scan.angle_step_rad * beam, options_.height_m);
+    scan.ranges_m.push_back(read(echo_m(cast(below_ceiling, ray, options_.range_max_m))));
   }
   return scan;
 }
 
-double SimulatedLidar::cast(const RayScene& scene, std::span<const WallSegment> more_walls,
-                            const HeadPose& head, double turned_rad) const {
-  const Pose2& pose = head.T_world_head;
-  // Of the beam: its direction in the plane, the share of its length that lies in the plane, and
-  // how much it rises per metre of its length.
-  Eigen::Vector2d direction;
-  double flat = 1.0, rise = 0.0;
-  if (head.roll_rad == 0.0 && head.pitch_rad == 0.0) {
-    const double angle = pose.yaw_rad - kPi + turned_rad;
-    direction = {std::cos(angle), std::sin(angle)};
-  } else {
-    const double angle = turned_rad - kPi;
-    const Eigen::Vector3d along = Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ()) *
-                                  (Eigen::AngleAxisd(head.pitch_rad, Eigen::Vector3d::UnitY()) *
-                                   (Eigen::AngleAxisd(head.roll_rad, Eigen::Vector3d::UnitX()) *
-                                    Eigen::Vector3d(std::cos(angle), std::sin(angle), 0)));
-    flat = along.head<2>().norm();
-    rise = along.z();
-    direction = along.head<2>() / flat;
+/// The distance that comes back, without noise; 0 where something is met that gives no echo.
+double SimulatedLidar::echo_m(const Echoes& echoes) {
+  double range_m = echoes.swallowed ? 0.0 : echoes.end_m;
+  if (echoes.panes > 0) {
+    const bool mirrors = echoes.pane_cosine >= kMirrorCosine;
+    bool passes = true;
+    for (int pane = 0; pane < echoes.panes; ++pane) passes = glass_.chance(kPassesShare) && passes;
+    if (mirrors) range_m = echoes.pane_m;
+    if (!mirrors && !passes) range_m = 0.0;
   }
-  double wall_m = scene.cast(pose.translation(), direction, options_.range_max_m * flat);
-  for (const WallSegment& wall : more_walls) {
-    wall_m = std::min(wall_m, ray_to_wall(pose.translation(), direction, wall));
-  }
-  double range_m = wall_m / flat;
-  if (rise < 0.0) range_m = std::min(range_m, options_.height_m / -rise);
-  if (rise > 0.0) range_m = std::min(range_m, (options_.ceiling_m - options_.height_m) / rise);
-  return range_m <= options_.range_max_m ? range_m : std::numeric_limits<double>::infinity();
+  return options_.smoke_sight_m > 0.0 ? through_smoke_m(range_m) : range_m;
+}
+
+double SimulatedLidar::through_smoke_m(double range_m) {
+  const double luck = smoke_.uniform(), depth = smoke_.uniform();
+  const double comes_back = range_m > 0.0 ? std::exp(-range_m / options_.smoke_sight_m) : 0.0;
+  if (luck < comes_back) return range_m;
+  if (luck >= comes_back + kSmokeShare * (1.0 - comes_back)) return 0.0;
+  const double smoke_m =
+      options_.range_min_m - kSmokeDepth * options_.smoke_sight_m * std::log1p(-depth);
+  return range_m > 0.0 ? std::min(smoke_m, range_m) : smoke_m;
 }
 
 float SimulatedLidar::read(double true_range_m) {
   // Drawn for every beam, hit or not, so that one beam's fate does not shift the others' noise.
   const double noise = noise_.next();
   const bool dropped = luck_.uniform() < options_.dropout_share;
-  if (dropped) return 0.0F;
+  if (dropped || true_range_m == 0.0) return 0.0F;
   if (!std::isfinite(true_range_m)) return std::numeric_limits<float>::infinity();
   const double sigma_m = options_.noise_m * (1.0 + 0.1 * true_range_m);
   const double range_m = true_range_m + sigma_m * noise;

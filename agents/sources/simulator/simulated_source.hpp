@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "agents/sensing/scan_source.hpp"
+#include "agents/sources/simulator/finds.hpp"
 #include "agents/sources/simulator/plan.hpp"
 #include "agents/sources/source_spec.hpp"
 #include "common/base/result.hpp"
@@ -18,5 +20,8 @@ namespace lifeline::sources {
 
 /// The building in which the source of this spec walks: for judging maps against its walls.
 [[nodiscard]] Result<FloorPlan> load_plan(const SourceSpec& spec);
+
+/// What is to be found in the building of this spec, and where: for judging finds.
+[[nodiscard]] Result<std::vector<Find>> load_finds(const SourceSpec& spec);
 
 }  // namespace lifeline::sources

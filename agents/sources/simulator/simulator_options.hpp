@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "agents/sources/simulator/doors.hpp"
+#include "agents/sources/simulator/finds.hpp"
+#include "agents/sources/simulator/make_hard.hpp"
 #include "agents/sources/simulator/office.hpp"
 #include "agents/sources/simulator/sensors.hpp"
 #include "agents/sources/simulator/tour.hpp"
@@ -16,10 +18,15 @@ namespace lifeline::sources {
 struct SimulatorOptions {
   OfficeOptions office;  ///< seed, width, depth
   WalkerNumber walker;   ///< walk_seed (seed where it is not given), walker, walkers
-  LidarOptions lidar;    ///< beams, hz, noise, dropout, sweep, ceiling
+  LidarOptions lidar;    ///< beams, hz, noise, dropout, sweep, ceiling, smoke
+  Hardships hardships;   ///< glass, black, ceiling_spread
+  int people = 0;
   Walk::Head head = Walk::Head::still;
   Doors::When doors = Doors::When::never;
+  FindsWanted victims;
+  FindsWanted tags;
   bool ahrs = true;                  ///< prior=ahrs|none
+  double from_s = 0.0;               ///< from: the walk goes on from here
   std::optional<double> duration_s;  ///< duration; without it, the walk's first round
 };
 

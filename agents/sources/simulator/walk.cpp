@@ -19,6 +19,11 @@ constexpr double kBodyTurnRadS = 72.0 * kDegree;
 constexpr double kTurnUpRadS2 = 240.0 * kDegree;
 constexpr double kLookAheadM = 0.5;
 
+HeadMotion::Style style_of(Walk::Head head) {
+  if (head == Walk::Head::crawling) return HeadMotion::Style::crawling;
+  return head == Walk::Head::natural ? HeadMotion::Style::natural : HeadMotion::Style::nodding;
+}
+
 /// `value` moved towards `target` by at most `down` or `up`.
 double approach(double value, double target, double down, double up) {
   return std::clamp(target, value - down, value + up);
@@ -34,11 +39,11 @@ Walk::Walk(const FreeSpace& space, const WalkerNumber& number, Head head)
              {5.0 * kDegree, draw_.between(6.2, 7.4), draw_.between(0.0, 2.0 * kPi)}},
       cruise_m_s_(draw_.between(1.0, WalkLimits::kSpeedMs)),
       heading_rad_(draw_.between(-kPi, kPi)) {
+  if (head == Head::crawling) cruise_m_s_ *= kCrawlingPace;
   begin_round();
   if (head != Head::still) {
-    motion_.emplace(
-        stir(stir(number.seed, 5), static_cast<std::uint64_t>(number.walker)),
-        head == Head::natural ? HeadMotion::Style::natural : HeadMotion::Style::nodding);
+    motion_.emplace(stir(stir(number.seed, 5), static_cast<std::uint64_t>(number.walker)),
+                    style_of(head));
   }
   before_ = now_ = this->head();
 }
@@ -55,7 +60,8 @@ HeadPose Walk::head_at(double t_s) {
   return {{from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m),
            normalise_angle(from.yaw_rad + share * normalise_angle(to.yaw_rad - from.yaw_rad))},
           before_.roll_rad + share * (now_.roll_rad - before_.roll_rad),
-          before_.pitch_rad + share * (now_.pitch_rad - before_.pitch_rad)};
+          before_.pitch_rad + share * (now_.pitch_rad - before_.pitch_rad),
+          before_.raised_m + share * (now_.raised_m - before_.raised_m)};
 }
 
 void Walk::begin_round() {
@@ -114,7 +120,10 @@ HeadPose Walk::head() const {
   }
   if (!motion_) return Pose2{p.x(), p.y(), normalise_angle(yaw)};
   const HeadMotion::Lean lean = motion_->at(t_s, speed_m_s_ / cruise_m_s_);
-  return {{p.x(), p.y(), normalise_angle(yaw + lean.yaw_rad)}, lean.roll_rad, lean.pitch_rad};
+  return {{p.x(), p.y(), normalise_angle(yaw + lean.yaw_rad)},
+          lean.roll_rad,
+          lean.pitch_rad,
+          lean.raised_m};
 }
 
 }  // namespace lifeline::sources

@@ -25,8 +25,10 @@ struct WalkLimits {
 class Walk {
  public:
   /// How the head is held: level and with the body's slow sways alone, or as people do, or nodding
-  /// and rolling hard.
-  enum class Head { still, natural, nodding };
+  /// and rolling hard, or as people do who crawl, and as slowly.
+  enum class Head { still, natural, nodding, crawling };
+  /// Of the speed of someone who walks upright.
+  static constexpr double kCrawlingPace = 0.4;
 
   /// `space` has to outlive the walk. The way is the same however the head is held.
   Walk(const FreeSpace& space, const WalkerNumber& number, Head head = Head::still);
