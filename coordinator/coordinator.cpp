@@ -7,6 +7,7 @@
 #include "common/base/log.hpp"
 #include "common/grid/occupancy_grid.hpp"
 #include "common/sharing/accept.hpp"
+#include "common/sharing/hear.hpp"
 #include "common/wire/limits.hpp"
 #include "coordinator/evidence.hpp"
 
@@ -14,9 +15,12 @@ namespace lifeline {
 namespace {
 
 constexpr Duration kStatusInterval = std::chrono::seconds(1);
+constexpr Duration kRepeatDirectiveAfter = std::chrono::seconds(1);
 constexpr Duration kCountInterval = std::chrono::milliseconds(500);
 // A correction's tiles follow each other closer than this.
 constexpr Duration kQuietAfter = std::chrono::seconds(3);
+// Who is silent for so long maps no more, as far as anybody can tell: its map is matched as it is.
+constexpr Duration kGoneAfter = std::chrono::seconds(30);
 constexpr double kPathStepM = 0.05;
 constexpr std::size_t kMaxPathPoints = 100'000;
 
@@ -42,38 +46,47 @@ Coordinator::Coordinator(CoordinatorSettings settings, CoordinatorChannels chann
       started_(clock.steady_now()),
       store_(settings_.geometry),
       common_map_(settings_.geometry),
+      one_way_(settings_.speaker.id),
+      link_(settings_.budget_bit_s, channels_.octets_on_air),
+      exchange_({settings_.speaker, std::nullopt, 0.5 * settings_.budget_bit_s},
+                std::move(channels_.exchange)),
       schedule_(settings_.schedule, settings_.geometry.cell_size_m),
       writer_(settings_.directive, settings_.speaker.mission_id),
+      leadership_(settings_.leadership, settings_.speaker.id.text(),
+                  settings_.speaker.incarnation.value, started_),
+      alerts_(settings_.speaker, wire::Role::coordinator, std::move(channels_.alerts),
+              std::move(channels_.alert), clock),
       directive_stamper_(settings_.speaker),
       evidence_stamper_(settings_.speaker),
-      status_stamper_(settings_.speaker) {}
+      status_stamper_(settings_.speaker),
+      ruling_stamper_(settings_.speaker) {}
 
 void Coordinator::step() {
   const SteadyTime now = clock_.steady_now();
+  hear_directives();
   hear_statuses(now);
+  if (!settings_.only_listens) one_way_.step(now, roster_);
+  take_part(now);
+  alerts_.step(roster_, notes_);
   hear_poses();
-  hear_tiles();
+  const std::string& mission_id = settings_.speaker.mission_id;
+  sharing::hear(channels_.tiles->take(), "tsd_tile", mission_id, now, notes_,
+                [&](const wire::TsdTile& sample) { return store_.apply(sample); });
+  hear_detections(now);
+  link_.measure(now, roster_.present(now).size());
+  exchange_.step(now, clock_.wall_now(), roster_, store_, link_);
   note_changes(now);
   count_known_cells(now);
   take_outcome(now);
   match_next();
-  common_map_.update(store_);
+  for (const TileIndex tile : common_map_.update(store_)) {
+    if (map_listener_) map_listener_(tile);
+  }
   if (now >= status_due_) {
     status_due_ = now + kStatusInterval;
     wire::AgentStatus own = status();
     own.envelope = status_stamper_.next(clock_.wall_now());
     if (auto sent = channels_.status->put(own); !sent) spdlog::warn("{}", sent.error().text);
-  }
-}
-
-void Coordinator::hear_tiles() {
-  for (const auto& sample : channels_.tiles->take()) {
-    if (auto accepted = sharing::check_envelope(sample.envelope, settings_.speaker.mission_id);
-        !accepted) {
-      refuse("tsd_tile", accepted.error());
-    } else if (auto applied = store_.apply(sample); !applied) {
-      refuse("tsd_tile", applied.error());
-    }
   }
 }
 
@@ -93,13 +106,12 @@ void Coordinator::note_changes(SteadyTime now) {
 
 void Coordinator::hear_poses() {
   for (const auto& pose : channels_.poses->take()) {
-    auto accepted = sharing::check_envelope(pose.envelope, settings_.speaker.mission_id);
-    const auto key = sharing::to_layer_key({pose.agent_id, pose.map_id, pose.floor});
-    if (!accepted || !key || !pose.T_map_head.is_finite()) {
-      refuse("pose", accepted ? Error{ErrorCode::bad_data, "pose is not finite or names no helmet"}
-                              : accepted.error());
+    const auto key = sharing::check_pose(pose, settings_.speaker.mission_id);
+    if (!key) {
+      notes_.refusals.note("pose", key.error());
       continue;
     }
+    poses_.hear(pose, clock_.steady_now());
     if (!paths_.contains(*key) && paths_.size() >= sharing::ReplicaStore::kMaxLayers) continue;
     Path& path = paths_[*key];
     if (path.size() >= kMaxPathPoints) continue;
@@ -112,13 +124,20 @@ void Coordinator::hear_statuses(SteadyTime now) {
   for (const auto& status : channels_.statuses->take()) {
     if (auto accepted = sharing::check_envelope(status.envelope, settings_.speaker.mission_id);
         !accepted) {
-      refuse("agent_status", accepted.error());
+      notes_.refusals.note("agent_status", accepted.error());
       continue;
     }
+    leadership_.hear(status, now);
     if (status.agent_id == settings_.speaker.id.text()) continue;
     if (!roster_.hear(status, now)) continue;
-    // A coordinator that starts anew must outrank what the helmets still follow from before.
-    if (writer_.outrank(Epoch{status.epoch_applied})) send_directive(clock_.wall_now());
+    note_epoch(status, now);
+    // Whom the directive did not reach is told again, whatever the middleware thinks: it may have
+    // heard a stronger coordinator when it was sent.
+    if (leads() && !led_since_ && writer_.has_spoken() && status.role == wire::Role::helmet &&
+        status.epoch_applied < writer_.directive().epoch &&
+        now - directive_sent_at_ >= kRepeatDirectiveAfter) {
+      send_directive(now);
+    }
   }
 }
 
@@ -127,8 +146,11 @@ void Coordinator::count_known_cells(SteadyTime now) {
   count_due_ = now + kCountInterval;
   for (auto& [layer, progress] : progress_) {
     const auto* entry = roster_.find(layer.agent_id.text());
-    progress.finished = entry != nullptr && entry->status.state == wire::AgentState::finished;
     Watched& watched = watched_.at(layer);
+    const SteadyTime heard_at =
+        entry == nullptr ? watched.changed_at : std::max(watched.changed_at, entry->heard_at);
+    progress.finished = now - heard_at >= kGoneAfter ||
+                        (entry != nullptr && entry->status.state == wire::AgentState::finished);
     progress.quiet = now - watched.changed_at >= kQuietAfter;
     if (watched.counted == progress.changes) continue;
     watched.counted = progress.changes;
@@ -166,7 +188,7 @@ void Coordinator::take_outcome(SteadyTime now) {
                     keeper_.in_doubt(pair)  ? merging::Standing::doubted
                     : keeper_.follows(pair) ? merging::Standing::merged
                                             : merging::Standing::apart);
-  const std::string change = follow_plan(clock_.wall_now());
+  const std::string change = holds_back(now) ? "" : follow_plan(now);
   if (!change.empty()) news.front().reason += " [" + change + "]";
   newest_.insert_or_assign(pair, MergeRecord{pair, std::move(outcome->result), {}, false});
   for (const merging::PairNews& of : news) tell(of, now);
@@ -180,12 +202,13 @@ void Coordinator::tell(const merging::PairNews& news, SteadyTime now) {
   record.in_directive = keeper_.follows(news.pair);
   record.result.verdict = news.verdict;
   record.result.reason = news.reason.substr(0, wire::kMaxReason);
+  if (!leads()) return;
   wire::MergeEvidence evidence = to_evidence(news.pair, record.result);
   evidence.envelope = evidence_stamper_.next(clock_.wall_now());
   if (auto sent = channels_.evidence->put(evidence); !sent) spdlog::warn("{}", sent.error().text);
 }
 
-std::string Coordinator::follow_plan(Timestamp wall_now) {
+std::string Coordinator::follow_plan(SteadyTime now) {
   merging::Extents extents;
   for (const auto& [layer, watched] : watched_)
     extents.emplace(layer, watched.walls.extent(settings_.geometry.cell_size_m));
@@ -193,16 +216,22 @@ std::string Coordinator::follow_plan(Timestamp wall_now) {
   if (!change) return {};
   const std::string text = change->describe();
   spdlog::info("directive {}: {}", change->epoch.value, text);
-  send_directive(wall_now);
+  send_directive(now);
   return fmt::format("directive {}: {}", change->epoch.value, text);
 }
 
-void Coordinator::send_directive(Timestamp wall_now) {
+void Coordinator::send_directive(SteadyTime now) {
+  directive_sent_at_ = now;
   wire::MergeDirective directive = writer_.directive();
-  directive.envelope = directive_stamper_.next(wall_now);
+  directive.envelope = directive_stamper_.next(clock_.wall_now());
   if (auto sent = channels_.directive->put(directive); !sent)
     spdlog::error("{}", sent.error().text);
-  common_map_.place(largest_group(directive), store_);
+  place_common_map();
+}
+
+void Coordinator::place_common_map() {
+  common_map_.place(largest_group(writer_.directive()), store_);
+  detections_.follow(writer_.directive());
 }
 
 bool Coordinator::idle() const {
@@ -213,10 +242,17 @@ wire::AgentStatus Coordinator::status() const {
   wire::AgentStatus status;
   status.agent_id = settings_.speaker.id.text();
   status.role = wire::Role::coordinator;
-  status.state = wire::AgentState::tracking;
-  status.samples_refused = refused_ + channels_.tiles->refused() + channels_.poses->refused() +
-                           channels_.statuses->refused();
+  status.state = channels_.open_directive ? leadership_.state() : wire::AgentState::tracking;
+  status.samples_refused = notes_.refusals.count() + exchange_.refused() +
+                           channels_.tiles->refused() + channels_.poses->refused() +
+                           channels_.statuses->refused() + channels_.detections->refused() +
+                           alerts_.refused();
   status.bytes_sent = channels_.bytes_sent ? channels_.bytes_sent() : 0;
+  if (channels_.recording) {
+    const RecordingStatus recording = channels_.recording();
+    status.recording = recording.state;
+    status.samples_unrecorded = recording.unrecorded;
+  }
   status.epoch_applied = writer_.directive().epoch;
   if (!common_map_.placements().empty()) {
     std::vector<LayerKey> members;
@@ -230,12 +266,6 @@ wire::AgentStatus Coordinator::status() const {
   }
   status.peers_heard = roster_.present(clock_.steady_now());
   return status;
-}
-
-void Coordinator::refuse(const std::string& topic, const Error& error) {
-  ++refused_;
-  if (refused_ % 1000 == 1)
-    spdlog::warn("{}: refused a sample ({} so far): {}", topic, refused_, error.text);
 }
 
 }  // namespace lifeline

@@ -1,8 +1,24 @@
 #include "coordinator/coordinator_settings.hpp"
 
+#include "common/files/load_config.hpp"
 #include "idl/config.pb.h"
 
 namespace lifeline {
+
+Result<proto::CoordinatorConfig> read_coordinator_config(
+    const std::optional<std::filesystem::path>& file, const std::optional<std::string>& mission,
+    const std::optional<std::uint32_t>& domain) {
+  proto::CoordinatorConfig config;
+  files::fill_defaults(config);
+  if (file) {
+    auto loaded = files::load_coordinator_config(*file);
+    if (!loaded) return loaded;
+    config = *std::move(loaded);
+  }
+  if (mission) config.mutable_mission()->set_mission_id(*mission);
+  if (domain) config.mutable_mission()->set_domain_id(*domain);
+  return config;
+}
 
 CoordinatorSettings to_settings(const proto::CoordinatorConfig& config, sharing::Speaker speaker) {
   const auto& merging = config.merging();

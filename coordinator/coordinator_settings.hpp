@@ -1,5 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
 #include "common/base/result.hpp"
 #include "coordinator/coordinator.hpp"
 
@@ -9,6 +14,12 @@ class GridConfig;
 }  // namespace lifeline::proto
 
 namespace lifeline {
+
+/// The configuration with every default filled in; a mission or domain of the command line
+/// overrides the file's. Errors as of load_coordinator_config.
+[[nodiscard]] Result<proto::CoordinatorConfig> read_coordinator_config(
+    const std::optional<std::filesystem::path>& file, const std::optional<std::string>& mission,
+    const std::optional<std::uint32_t>& domain);
 
 /// The schema's values as the coordinator's parts take them; the values were checked when the file
 /// was read.

@@ -14,9 +14,15 @@ bool is_wall(QuantisedCell cell) {
   return cell.weight != 0 && std::abs(cell.tsd) < QuantisedCell::kTsdOne;
 }
 
+// From here on a coarse cell stands for anything up to free (wire::kCoarseLevels): a wall that
+// moved shows in the cells beside.
+constexpr int kInFront = 32;
+
 bool is_revised(QuantisedCell before, QuantisedCell now) {
   if (!is_wall(before) || before.weight < kSettledWeight) return false;
-  return now.weight == 0 || std::abs(now.tsd - before.tsd) >= kRevisedBy;
+  if (now.weight == 0) return true;
+  if (before.tsd >= kInFront && now.tsd >= kInFront) return false;
+  return std::abs(now.tsd - before.tsd) > kRevisedBy;
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ class LayerWatch {
 
   /// Known cells within the truncation distance of a wall.
   [[nodiscard]] std::size_t wall_cells() const { return wall_cells_; }
-  /// Such cells that a later tile contradicted so far: moved by a third of the truncation distance
-  /// or more, or forgotten. Never decreases.
+  /// Such cells that a later tile contradicted so far: moved by more than a third of the truncation
+  /// distance, or forgotten; not those that are well in front of a wall before and after. Never
+  /// decreases.
   [[nodiscard]] std::size_t revised_cells() const { return revised_cells_; }
   /// The box round all known cells, map frame, metres; empty without any.
   [[nodiscard]] Eigen::AlignedBox2d extent(double cell_size_m) const;

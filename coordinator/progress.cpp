@@ -5,6 +5,17 @@
 namespace lifeline {
 namespace {
 
+std::string position(const wire::AgentStatus& status, const Coordinator& coordinator) {
+  const auto agent_id = AgentId::parse(status.agent_id);
+  if (!agent_id) return "";
+  const auto path =
+      coordinator.paths().find({*agent_id, MapId{status.map_id}, Floor{status.floor}});
+  if (path == coordinator.paths().end() || path->second.empty()) return "";
+  return fmt::format(" at ({:.1f}, {:.1f})", path->second.back().x(), path->second.back().y());
+}
+
+}  // namespace
+
 const char* describe(wire::AgentState state) {
   switch (state) {
     case wire::AgentState::starting:
@@ -20,17 +31,6 @@ const char* describe(wire::AgentState state) {
   }
   return "in an unknown state";
 }
-
-std::string position(const wire::AgentStatus& status, const Coordinator& coordinator) {
-  const auto agent_id = AgentId::parse(status.agent_id);
-  if (!agent_id) return "";
-  const auto path =
-      coordinator.paths().find({*agent_id, MapId{status.map_id}, Floor{status.floor}});
-  if (path == coordinator.paths().end() || path->second.empty()) return "";
-  return fmt::format(" at ({:.1f}, {:.1f})", path->second.back().x(), path->second.back().y());
-}
-
-}  // namespace
 
 std::string describe(const sharing::Roster::Entry& helmet, const Coordinator& coordinator,
                      SteadyTime now) {
@@ -70,6 +70,9 @@ void ProgressPrinter::print_helmets(const Coordinator& coordinator, SteadyTime n
     line += (line.empty() ? "" : " | ") + describe(entry, coordinator, now);
   }
   if (line.empty()) line = "nobody heard yet";
+  if (const auto finds = coordinator.detections(); !finds.empty()) {
+    line += fmt::format(" | {} find{}", finds.size(), finds.size() == 1 ? "" : "s");
+  }
   fmt::print(out_, "{:6.1f} s  {}\n", to_seconds(now - started_), line);
   std::fflush(out_);
 }

@@ -26,6 +26,9 @@ class ProgressPrinter {
   std::map<merging::LayerPair, Duration> printed_;
 };
 
+/// "tracking", "lost its place", ...
+[[nodiscard]] const char* describe(wire::AgentState state);
+
 /// One helmet in a few words: "alpha 120 scans 85 m2 at (1.2, 3.4) trust good".
 [[nodiscard]] std::string describe(const sharing::Roster::Entry& helmet,
                                    const Coordinator& coordinator, SteadyTime now);

@@ -5,6 +5,7 @@
 #include "common/base/log.hpp"
 #include "common/base/sha256.hpp"
 #include "common/files/atomic_file.hpp"
+#include "common/files/finds_json.hpp"
 #include "common/files/map_picture.hpp"
 #include "common/files/occupancy_image.hpp"
 #include "common/grid/occupancy_grid.hpp"
@@ -66,6 +67,14 @@ Json helmets_of(const Coordinator& coordinator) {
   return helmets;
 }
 
+/// The helmet whose map frame is the largest group's common frame; empty while there is none.
+std::string lead_of(const wire::MergeDirective& directive) {
+  for (const auto& member : directive.members) {
+    if (member.group == 0) return member.layer.agent_id;
+  }
+  return "";
+}
+
 std::string to_json(const Coordinator& coordinator, Settlement outcome) {
   const auto status = coordinator.status();
   const bool shares = !coordinator.common_map().placements().empty();
@@ -79,6 +88,8 @@ std::string to_json(const Coordinator& coordinator, Settlement outcome) {
   json["samples_refused"] = status.samples_refused;
   json["helmets"] = helmets_of(coordinator);
   json["merges"] = merges_of(coordinator);
+  json["common_frame_of"] = lead_of(coordinator.directive());
+  json["detections"] = files::to_json(coordinator.detections());
   return json.dump(1) + "\n";
 }
 

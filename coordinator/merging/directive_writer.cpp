@@ -127,13 +127,28 @@ std::optional<DirectiveChange> DirectiveWriter::update(const MergePlan& plan,
   return change;
 }
 
+bool DirectiveWriter::is_believable(Epoch heard) const {
+  return sharing::is_believable(heard, Epoch{directive_.epoch});
+}
+
 bool DirectiveWriter::outrank(Epoch heard) {
-  // No coordinator writes a million directives in a mission: such an epoch is a broken or hostile
-  // status.
-  constexpr std::uint64_t kMaxLead = 1'000'000;
-  if (heard.value <= directive_.epoch || heard.value - directive_.epoch > kMaxLead) return false;
+  if (heard.value <= directive_.epoch || !is_believable(heard)) return false;
   directive_.epoch = spoke_ ? heard.value + 1 : heard.value;
   return spoke_;
+}
+
+bool DirectiveWriter::adopt(const wire::MergeDirective& directive) {
+  const bool is_newer = directive.epoch > directive_.epoch;
+  if (!is_newer && (spoke_ || directive.epoch < directive_.epoch)) return false;
+  directive_ = directive;
+  spoke_ = true;
+  return true;
+}
+
+bool DirectiveWriter::renew(Epoch heard) {
+  if (!spoke_) return false;
+  directive_.epoch = std::max(directive_.epoch, is_believable(heard) ? heard.value : 0) + 1;
+  return true;
 }
 
 }  // namespace lifeline::merging

@@ -51,6 +51,17 @@ class DirectiveWriter {
   /// did not write. True when there is a directive that must be sent again under its new epoch: one
   /// with members, or one that took them back.
   bool outrank(Epoch heard);
+  /// An epoch further ahead than any mission writes is a broken or hostile one.
+  [[nodiscard]] bool is_believable(Epoch heard) const;
+
+  /// Takes over a directive that another process wrote, or this one before a restart: what
+  /// follows is compared with it and outranks it. False: it is not newer than what is held.
+  bool adopt(const wire::MergeDirective& directive);
+
+  /// Says what is held once more under an epoch above it and above `heard`. False where there is
+  /// nothing to say: no directive was written or adopted yet.
+  bool renew(Epoch heard);
+  [[nodiscard]] bool has_spoken() const { return spoke_; }
 
   /// Epoch 0 and no members until the first update that says something.
   [[nodiscard]] const wire::MergeDirective& directive() const { return directive_; }

@@ -27,6 +27,7 @@ struct MergeEdge {
   double quality = 0.0;        ///< in [0, 1]: what it weighs where edges contradict each other
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< middle of the agreeing wall, in b's frame
   bool doubted = false;  ///< followed still, but its last match spoke against it
+  bool by_hand = false;  ///< a person accepted it: no match takes it away again
 };
 
 using EdgeMap = std::map<LayerPair, MergeEdge>;

@@ -19,6 +19,14 @@ bool same_view(const Contradiction& before, const Contradiction& now) {
   return before.why == now.why && before.against == now.against;
 }
 
+// Where edges contradict each other, a person's word weighs most.
+MergeEdge kept_by_hand(MergeEdge edge) {
+  edge.quality = 1.0;
+  edge.by_hand = true;
+  edge.doubted = false;
+  return edge;
+}
+
 }  // namespace
 
 MergeEdge to_edge(const matching::MatchResult& result) {
@@ -41,7 +49,7 @@ std::vector<PairNews> MergeKeeper::take(const LayerPair& pair, const PairMatch& 
   const std::optional<Pose2> asked = place_to_check(pair);
   std::vector<PairNews> news{apply(pair, match)};
   if (graph_.edge(pair) != nullptr) {
-    graph_.set_doubted(pair, support_.in_doubt(pair));
+    graph_.set_doubted(pair, support_.in_doubt(pair) && !graph_.edge(pair)->by_hand);
     graph_.lift_objection(pair);  // the edge itself says now where they lie
     checked_.erase(pair);
   } else if (match.check) {
@@ -57,7 +65,17 @@ std::vector<PairNews> MergeKeeper::take(const LayerPair& pair, const PairMatch& 
 }
 
 PairNews MergeKeeper::apply(const LayerPair& pair, const PairMatch& match) {
-  const EdgeDecision decision = support_.judge(pair, match, graph_.edge(pair));
+  if (apart_.contains(pair)) {
+    return {pair, matching::Verdict::rejected,
+            "withdrawn by hand; this match: " + match.result.reason};
+  }
+  EdgeDecision decision = support_.judge(pair, match, graph_.edge(pair));
+  const MergeEdge* held = graph_.edge(pair);
+  const bool by_hand = held != nullptr && held->by_hand;
+  if (by_hand && decision.step != EdgeStep::refined) {
+    decision = {EdgeStep::kept, "accepted by hand" +
+                                    (decision.reason.empty() ? "" : ", though " + decision.reason)};
+  }
   PairNews news{pair, match.result.verdict, decision.reason};
   switch (decision.step) {
     case EdgeStep::none:
@@ -76,7 +94,7 @@ PairNews MergeKeeper::apply(const LayerPair& pair, const PairMatch& match) {
       break;
     case EdgeStep::adopted:
     case EdgeStep::refined:
-      graph_.set_edge(pair, to_edge(match.result));
+      graph_.set_edge(pair, by_hand ? kept_by_hand(to_edge(match.result)) : to_edge(match.result));
       parted_.erase(pair);
       news.reason += (news.reason.empty() ? "" : "; ") + match.result.reason;
       break;
@@ -89,6 +107,26 @@ PairNews MergeKeeper::apply(const LayerPair& pair, const PairMatch& match) {
       news.verdict = matching::Verdict::rejected;
       break;
   }
+  return news;
+}
+
+std::vector<PairNews> MergeKeeper::part_by_hand(const LayerPair& pair) {
+  graph_.withdraw(pair);
+  apart_.insert(pair);
+  parted_[pair] = "withdrawn by hand";
+  std::vector<PairNews> news{{pair, matching::Verdict::rejected, "withdrawn by hand"}};
+  plan_anew(news);
+  return news;
+}
+
+std::vector<PairNews> MergeKeeper::merge_by_hand(const LayerPair& pair, MergeEdge edge) {
+  graph_.set_edge(pair, kept_by_hand(std::move(edge)));
+  graph_.lift_objection(pair);
+  apart_.erase(pair);
+  parted_.erase(pair);
+  checked_.erase(pair);
+  std::vector<PairNews> news{{pair, matching::Verdict::accepted, "accepted by hand"}};
+  plan_anew(news);
   return news;
 }
 

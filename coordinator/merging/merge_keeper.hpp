@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/wire/messages.hpp"
 #include "coordinator/merging/edge_support.hpp"
 #include "coordinator/merging/merge_graph.hpp"
 
@@ -40,6 +41,19 @@ class MergeKeeper {
   /// changed.
   [[nodiscard]] std::vector<PairNews> take(const LayerPair& pair, const PairMatch& match);
 
+  /// A person's word on a pair, which stands above every match until they say otherwise: parted by
+  /// hand, no match merges it; merged by hand at the edge's place, no match parts it. The first
+  /// news is of the pair.
+  [[nodiscard]] std::vector<PairNews> part_by_hand(const LayerPair& pair);
+  [[nodiscard]] std::vector<PairNews> merge_by_hand(const LayerPair& pair, MergeEdge edge);
+  [[nodiscard]] const std::set<LayerPair>& parted_by_hand() const { return apart_; }
+
+  /// Goes on from edges that were accepted before a restart, and with the common frames of a
+  /// directive: where the edges do not hold one of its members, one to its lead is made of what it
+  /// says, to be replaced by matches as they come.
+  void adopt(const EdgeMap& edges, std::set<LayerPair> parted_by_hand = {});
+  void adopt(const wire::MergeDirective& directive);
+
   [[nodiscard]] const MergePlan& plan() const { return plan_; }
   [[nodiscard]] const MergeGraph& graph() const { return graph_; }
   /// The pair has an edge, and the plan follows it.
@@ -52,6 +66,8 @@ class MergeKeeper {
   void note_check(const LayerPair& pair, const PlaceCheck& check);
   [[nodiscard]] PairNews apply(const LayerPair& pair, const PairMatch& match);
   void plan_anew(std::vector<PairNews>& news);
+  void adopt_member(const LayerKey& lead, const Pose2& T_common_lead,
+                    const wire::DirectiveMember& member);
 
   EdgeSupport support_;
   ObjectionConfig objection_;
@@ -59,6 +75,7 @@ class MergeKeeper {
   MergePlan plan_;
   std::map<LayerPair, PlaceCheck> checked_;  ///< of pairs without an edge
   std::map<LayerPair, std::string> parted_;  ///< why, of pairs that are no more merged
+  std::set<LayerPair> apart_;                ///< parted by hand
 };
 
 /// An accepted match as an edge of the merge graph.

@@ -79,7 +79,8 @@ std::optional<MergeSchedule::Need> MergeSchedule::need(const LayerProgress& a,
   }
   if (was_revised(a, last.a) || was_revised(b, last.b))
     return last.standing == Standing::merged ? Need::harm : Need::apart;
-  if (a.finished && b.finished && changed) return usual;
+  const bool has_ended = a.finished != last.a.finished || b.finished != last.b.finished;
+  if (a.finished && b.finished && (changed || has_ended)) return usual;
   const double factor = growth_factor(last);
   const auto grew = [&](std::size_t now, std::size_t then) {
     return static_cast<double>(now) > factor * static_cast<double>(then);
