@@ -11,9 +11,11 @@ endfunction()
 
 set(values common/base common/grid)
 layer(common/base)
+layer(common/cli common/base)
 layer(common/grid common/base)
 layer(common/wire ${values} idl)
 layer(common/sharing ${values} common/wire)
+layer(common/search ${values} common/sharing)
 layer(agents/sensing ${values})
 layer(agents/slam ${values} agents/sensing)
 layer(agents/sharing ${values} common/wire common/sharing)
@@ -22,14 +24,30 @@ layer(coordinator/merging ${values} common/wire common/sharing coordinator/match
 # services: state machines that know no middleware, files or devices
 layer(agents ${values} common/wire common/sharing agents/sensing agents/slam agents/sharing)
 layer(coordinator ${values} common/wire common/sharing coordinator/matching coordinator/merging)
+layer(common/ros2 ${values})
 # adapters: what touches the world
-set(adapters common/files common/dds agents/ahrs agents/rplidar agents/serial agents/sources agents/sources/simulator)
-layer(common/files ${values} common/wire idl ${adapters})
+set(adapters common/bag common/doctor common/files common/dds common/net common/store agents/ahrs agents/rplidar agents/serial agents/sources agents/sources/simulator)
+layer(common/files ${values} common/wire common/sharing idl ${adapters})
 layer(common/dds ${values} common/wire ${adapters})
+layer(common/bag common/base ${adapters})
+layer(common/net)
+layer(common/doctor common/base ${adapters})
+layer(common/store ${values} common/wire common/sharing idl ${adapters})
+set(helmet agents agents/sensing agents/slam agents/sharing)
+layer(agents/storage ${values} common/wire common/sharing idl ${helmet} ${adapters})
+layer(agents/hud ${values} common/wire common/sharing agents/sharing ${adapters})
+layer(coordinator/storage ${values} common/wire common/sharing idl coordinator coordinator/matching coordinator/merging
+  ${adapters})
+layer(coordinator/foxglove ${values} common/ros2 common/net)
+layer(coordinator/recording ${values} common/wire common/sharing common/ros2 idl coordinator/foxglove coordinator coordinator/matching
+  coordinator/merging ${adapters})
+layer(coordinator/export ${values} common/wire common/sharing coordinator coordinator/recording ${adapters})
+layer(coordinator/dashboard ${values} common/wire common/sharing common/search idl coordinator coordinator/matching coordinator/merging
+  ${adapters})
 layer(agents/serial common/base)
 layer(agents/rplidar ${values} agents/sensing ${adapters})
 layer(agents/ahrs ${values} agents/sensing ${adapters})
-layer(agents/sources ${values} agents/sensing idl ${adapters})
+layer(agents/sources ${values} common/ros2 agents/sensing idl ${adapters})
 layer(agents/sources/simulator ${values} agents/sensing idl ${adapters})
 
 # Programs (main and their commands, settings and reports) wire everything together, and tests look at everything.
@@ -40,7 +58,9 @@ set(doors
   "^(fastdds|fastrtps|fastcdr)/|^dds/(envelope|map|merge|status)" "^common/dds/" "Fast DDS stays in common/dds"
   "^pcl/" "^agents/slam/gicp_matcher\\.cpp$" "PCL stays in agents/slam/gicp_matcher.cpp"
   "^ceres/" "^(agents/slam/pose_graph|coordinator/merging/refine_places)\\.cpp$"
-    "Ceres stays in agents/slam/pose_graph.cpp and coordinator/merging/refine_places.cpp")
+    "Ceres stays in agents/slam/pose_graph.cpp and coordinator/merging/refine_places.cpp"
+  "^SDL" "^agents/hud/window\\.cpp$" "SDL stays in agents/hud/window.cpp"
+  "^sqlite3\\.h$" "^(common/store|tests)/" "SQLite is included through common/store/sqlite_handle.hpp")
 
 function(report file line text)
   file(STRINGS "${ROOT}/${file}" lines)  # only for the number of the line

@@ -9,10 +9,12 @@ stop() {
   exit 1
 }
 
-# Those packages of the list that are not installed, one a line.
+# Those packages of the list that are not installed, one a line. One that an installed package provides is there
+# (another vendor's nodejs brings npm, and forbids Debian's).
 missing_packages() {
   comm -23 <(sed 's/#.*//; s/[[:space:]]//g; /^$/d' "$list" | sort -u) \
-    <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
+    <(dpkg-query -W -f='${db:Status-Status} ${Package},${Provides}\n' | sed -n 's/^installed //p' | tr , '\n' |
+      sed 's/(.*//; s/[[:space:]]//g; /^$/d' | sort -u)
 }
 
 # apt COMMAND...: no questions, waits for another apt to finish, keeps quiet unless it fails.

@@ -18,7 +18,7 @@ done
 jobs=1
 fuzz_seconds=20
 # Minutes under a sanitizer, and other numbers through code that other tests run there as well.
-repetitions='BentMapTest.*InBuilding[23]|IsMatchedNoMoreThanOnceASecond.*of20cm|NoneOf300IsMerged'
+repetitions='BentMapTest.*InBuilding[23]|IsMatchedNoMoreThanOnceASecond.*of20cm|NoneOf300IsMerged|Seeds.*/[0-9][0-9]+'
 
 build() {  # PRESET [TARGET...]
   local preset="$1"
@@ -64,8 +64,8 @@ jobs="$(parallel_jobs)"
 phase "build (dev)" build dev
 phase "tests (dev)" run_tests dev
 if [[ "$deep" == yes ]]; then
-  phase "build (address and undefined behaviour sanitizers)" build asan-ubsan
-  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan -LE 'system|bench' -E "$repetitions"
+  phase "build (address and undefined behaviour sanitizers)" build asan-ubsan lifeline_inner_tests
+  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan -LE 'system|bench|planted' -E "$repetitions|_NOT_BUILT"
   phase "build (thread sanitizer)" build tsan lifeline_thread_tests
   phase "tests (thread sanitizer)" run_tests tsan -L threads
   phase "build (fuzz targets)" build fuzz lifeline_fuzzers

@@ -35,6 +35,8 @@ class ChildProcess {
   /// How it ended: its exit status, or 128 + signal; empty while it runs. Never waits.
   [[nodiscard]] std::optional<int> ended();
 
+  [[nodiscard]] pid_t pid() const { return pid_; }
+
   /// Sends `signal` to the process and what it started, unless it has ended.
   void send(int signal);
 

@@ -15,6 +15,9 @@ constexpr Duration kLook = std::chrono::milliseconds(500);
 /// What the coordinator gets beyond its time limit for writing its report.
 constexpr Duration kReportTime = std::chrono::seconds(45);
 
+/// bit/s: processes of one machine share no radio.
+constexpr const char* kBudget = "50000000";
+
 ChildCommand command(const std::filesystem::path& program, const Mission& mission,
                      const std::string& name) {
   return {{program.string(), "run", "--report", mission.report.string(), "--mission",
@@ -36,7 +39,8 @@ ChildCommand coordinator_command(const Mission& mission, std::size_t helmets) {
 
 ChildCommand helmet_command(const Mission& mission, const HelmetPlan& helmet) {
   ChildCommand result = command(mission.programs.agent, mission, helmet.agent_id);
-  const std::vector<std::string> own{"--id", helmet.agent_id, "--source", helmet.source};
+  const std::vector<std::string> own{"--id",        helmet.agent_id, "--source",
+                                     helmet.source, "--budget",      kBudget};
   result.arguments.insert(result.arguments.end(), own.begin(), own.end());
   return result;
 }

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "agents/sources/open_source.hpp"
+#include "agents/sources/simulator/simulated_source.hpp"
+#include "agents/sources/source_spec.hpp"
 #include "common/base/check.hpp"
 
 namespace lifeline::demo {
@@ -37,13 +39,23 @@ std::string helmet_name(std::size_t index) {
   return kNames[index];
 }
 
-FleetPlan plan_walk(const Walk& walk, std::size_t helmets) {
-  FleetPlan fleet{.helmets = {}, .play_s = walk.duration_s / walk.speed};
+Result<FleetPlan> plan_walk(const Walk& walk, std::size_t helmets) {
+  FleetPlan fleet{.helmets = {}, .finds = {}, .play_s = walk.duration_s / walk.speed};
   for (std::size_t i = 0; i < helmets; ++i) {
     fleet.helmets.push_back(
         {helmet_name(i),
-         fmt::format("sim:{}?walkers={}&walker={}&seed={}&duration={}&rate=x{}", walk.plan, helmets,
-                     i, walk.seed, walk.duration_s, walk.speed)});
+         fmt::format("sim:{}?walkers={}&walker={}&seed={}&duration={}&victims={}&tags={}&rate=x{}",
+                     walk.plan, helmets, i, walk.seed, walk.duration_s, kVictims, kTags,
+                     walk.speed)});
+  }
+  auto spec = sources::parse_source_spec(fleet.helmets.front().source);
+  if (!spec) return forward_error(spec);
+  spec->options.erase("rate");
+  const auto finds = sources::load_finds(*spec);
+  if (!finds) return forward_error(finds);
+  for (const sources::Find& find : *finds) {
+    fleet.finds.push_back({find.kind == sensing::SightedKind::victim ? "victim" : "uwb_tag",
+                           find.p_world.x(), find.p_world.y()});
   }
   return fleet;
 }

@@ -18,9 +18,17 @@ struct HelmetPlan {
   std::string source;
 };
 
+/// Something to be found, where it truly lies.
+struct TrueFind {
+  std::string kind;  ///< as reports name it: victim, uwb_tag
+  double x_m = 0.0;  ///< in the world's frame
+  double y_m = 0.0;
+};
+
 struct FleetPlan {
   std::vector<HelmetPlan> helmets;
-  double play_s = 0.0;  ///< how long the longest source plays
+  std::vector<TrueFind> finds;  ///< empty where nobody knows
+  double play_s = 0.0;          ///< how long the longest source plays
 };
 
 /// Name of the helmet number `index` (from 0, below kMostHelmets): alpha, bravo, charlie, ...
@@ -34,8 +42,10 @@ struct Walk {
   std::uint64_t seed = 1;
 };
 
-/// `helmets` people walking about in one building.
-[[nodiscard]] FleetPlan plan_walk(const Walk& walk, std::size_t helmets);
+/// `helmets` people walking about in one building, where kVictims and kTags are to be found. The
+/// errors are those of the plan: wrong_use, not_found, bad_data.
+inline constexpr int kVictims = 3, kTags = 1;
+[[nodiscard]] Result<FleetPlan> plan_walk(const Walk& walk, std::size_t helmets);
 
 /// Consecutive scans of a log.
 struct LogPiece {

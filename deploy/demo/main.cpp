@@ -29,21 +29,16 @@ constexpr double kTimeToSettle_s = 60.0;
 constexpr Duration kTimeToReport = std::chrono::seconds(15);
 constexpr Duration kTimeToStop = std::chrono::seconds(5);
 
-/// What every helmet plays. Opens a simulated building once, so that a bad plan is told before
-/// anything starts; a log has been read as a whole by then.
+/// What every helmet plays. A bad plan or log is told before anything starts.
 Result<FleetPlan> plan_fleet(const Options& options) {
   if (!options.log.empty()) return plan_log(options.log, options.helmets, kLogPlay_s);
-  FleetPlan fleet = plan_walk(
+  return plan_walk(
       {.plan = options.plan.empty() ? "office" : options.plan,
        .duration_s = kWalk_s,
        .speed = std::clamp(kWalkSpeed * kFastHelmets / static_cast<double>(options.helmets), 1.0,
                            kWalkSpeed),
        .seed = options.seed},
       options.helmets);
-  if (auto opened = sources::open_source(fleet.helmets.front().source); !opened) {
-    return forward_error(opened);
-  }
-  return fleet;
 }
 
 Result<Mission> plan_mission(const Options& options, const FleetPlan& fleet) {
@@ -106,7 +101,7 @@ Result<bool> run(const Options& options) {
 
   if (auto played = play(*mission, *plan); !played) return forward_error(played);
   const auto coordinator = read_report(mission->report / "coordinator.json");
-  const auto summary = make_summary(read_outcomes(mission->report, *plan), coordinator,
+  const auto summary = make_summary(read_outcomes(mission->report, *plan), coordinator, plan->finds,
                                     to_seconds(clock.steady_now() - start));
   if (auto written = write_summary(mission->report, summary); !written) {
     return forward_error(written);

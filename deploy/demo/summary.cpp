@@ -86,6 +86,38 @@ json merge_summary(const json& merge, const std::map<std::string, Pose2>& T_worl
   return result;
 }
 
+/// The coordinator's list, each entry with how far it is from the nearest true find of its kind.
+json finds_summary(const json& coordinator, const std::map<std::string, Pose2>& T_world_map,
+                   const std::vector<TrueFind>& finds) {
+  json all = json::array();
+  const auto lead = T_world_map.find(text(field(coordinator, "common_frame_of"), ""));
+  for (json find : field(coordinator, "detections")) {
+    if (!find.is_object()) continue;
+    find["error_m"] = json();
+    const auto x_m = number(field(find, "x_m")), y_m = number(field(find, "y_m"));
+    if (lead != T_world_map.end() && text(field(find, "frame"), "") == "common" && x_m && y_m) {
+      const Eigen::Vector2d p_world = lead->second * Eigen::Vector2d(*x_m, *y_m);
+      for (const TrueFind& there : finds) {
+        const double error_m = (p_world - Eigen::Vector2d(there.x_m, there.y_m)).norm();
+        if (there.kind != text(field(find, "kind"), "") ||
+            error_m > number(field(find, "error_m")).value_or(error_m)) {
+          continue;
+        }
+        find["error_m"] = error_m;
+      }
+    }
+    all.push_back(std::move(find));
+  }
+  return all;
+}
+
+bool all_lists_equal(const std::vector<HelmetOutcome>& helmets, const json& coordinator) {
+  const json list = field(coordinator, "detections");
+  return list.is_array() && std::all_of(helmets.begin(), helmets.end(), [&](const auto& helmet) {
+           return field(helmet.report, "detections") == list;
+         });
+}
+
 bool all_hashes_equal(const json& summary) {
   const std::string hash = text(summary["coordinator"]["common_map_sha256"], "");
   const json& helmets = summary["helmets"];
@@ -108,6 +140,17 @@ std::string render_helmet(const json& helmet) {
       text(helmet["common_map_sha256"], "none"));
 }
 
+std::string render_find(const json& find) {
+  std::string by;
+  for (const json& id : field(find, "seen_by")) by += (by.empty() ? "" : ", ") + text(id, "?");
+  return fmt::format("{:<10} {:<10} {:>8} {:>8} {:>8} {:>6} {:>9}  {}\n",
+                     text(field(find, "kind"), "?"), text(field(find, "frame"), "?"),
+                     shown(field(find, "x_m"), "{:.2f}"), shown(field(find, "y_m"), "{:.2f}"),
+                     shown(field(find, "error_m"), "{:.3f}"),
+                     shown(field(find, "confidence"), "{:.2f}"),
+                     text(field(field(find, "first_seen"), "by"), "?"), by);
+}
+
 /// The merges of one pair in one line: the newest one's figures, and the largest error of all.
 std::string render_pair(const std::string& pair, const std::vector<json>& merges) {
   const json& newest = merges.back();
@@ -126,7 +169,7 @@ std::string render_pair(const std::string& pair, const std::vector<json>& merges
 }  // namespace
 
 json make_summary(const std::vector<HelmetOutcome>& helmets, const json& coordinator,
-                  double wall_s) {
+                  const std::vector<TrueFind>& finds, double wall_s) {
   std::map<std::string, Pose2> T_world_map;
   json summary{{"shared", false},
                {"helmets", json::array()},
@@ -140,6 +183,8 @@ json make_summary(const std::vector<HelmetOutcome>& helmets, const json& coordin
   for (const json& merge : field(coordinator, "merges")) {
     summary["merges"].push_back(merge_summary(merge, T_world_map));
   }
+  summary["detections"] = finds_summary(coordinator, T_world_map, finds);
+  summary["detections_agree"] = all_lists_equal(helmets, coordinator);
   summary["shared"] = all_hashes_equal(summary);
   return summary;
 }
@@ -184,6 +229,10 @@ std::string render_summary(const json& summary) {
     pairs[text(merge["a"], "?") + " - " + text(merge["b"], "?")].push_back(merge);
   }
   for (const auto& [pair, merges] : pairs) table += render_pair(pair, merges);
+  if (field(summary, "detections").empty()) return table;
+  table += fmt::format("\n{:<10} {:<10} {:>8} {:>8} {:>8} {:>6} {:>9}  {}\n", "find", "frame",
+                       "x m", "y m", "error m", "sure", "first by", "seen by");
+  for (const json& find : summary["detections"]) table += render_find(find);
   return table;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/grid/pose2.hpp"
+#include "deploy/demo/fleet_plan.hpp"
 
 namespace lifeline::demo {
 
@@ -19,9 +20,11 @@ struct HelmetOutcome {
 };
 
 /// The content of summary.json (docs/demo.md names the fields). `coordinator` is coordinator.json,
-/// or null where there is none; what is not known is null in the summary, too.
+/// or null where there is none; `finds` is what is truly to be found. What is not known is null in
+/// the summary, too.
 [[nodiscard]] nlohmann::json make_summary(const std::vector<HelmetOutcome>& helmets,
-                                          const nlohmann::json& coordinator, double wall_s);
+                                          const nlohmann::json& coordinator,
+                                          const std::vector<TrueFind>& finds, double wall_s);
 
 /// True where the summary's accepted merges tie all of its helmets together.
 [[nodiscard]] bool is_one_map(const nlohmann::json& summary);
