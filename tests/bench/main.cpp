@@ -9,7 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "tests/bench/codec/codec_bench.hpp"
+#include "tests/bench/dashboard/dashboard_bench.hpp"
+#include "tests/bench/fleet/fleet_bench.hpp"
+#include "tests/bench/hud/hud_bench.hpp"
 #include "tests/bench/merge/merge_bench.hpp"
+#include "tests/bench/mission/mission_bench.hpp"
+#include "tests/bench/paper/paper_bench.hpp"
+#include "tests/bench/radio/radio_bench.hpp"
+#include "tests/bench/search/search_bench.hpp"
 #include "tests/bench/slam/slam_bench.hpp"
 
 namespace {
@@ -19,7 +27,15 @@ namespace {
 using Bench = int (*)(std::span<const char* const> arguments);
 
 const std::map<std::string_view, Bench> kBenches{
+    {"codec", lifeline::bench::run_codec_bench},
+    {"dashboard", lifeline::bench::run_dashboard_bench},
+    {"fleet", lifeline::bench::run_fleet_bench},
+    {"hud", lifeline::bench::run_hud_bench},
     {"merge", lifeline::bench::run_merge_bench},
+    {"mission", lifeline::bench::run_mission_bench},
+    {"paper", lifeline::bench::run_paper_bench},
+    {"radio", lifeline::bench::run_radio_bench},
+    {"search", lifeline::bench::run_search_bench},
     {"slam", lifeline::bench::run_slam_bench},
 };
 

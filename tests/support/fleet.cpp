@@ -1,5 +1,7 @@
 #include "tests/support/fleet.hpp"
 
+#include <algorithm>
+
 #include "agents/sources/open_source.hpp"
 #include "common/base/check.hpp"
 #include "tests/support/fleet_channels.hpp"
@@ -40,17 +42,22 @@ Fleet::Fleet(const std::vector<std::string>& sources, CoordinatorSettings settin
                                                worker_, clock_);
 }
 
+void Fleet::step() {
+  clock_.advance(kTick);
+  for (auto& helmet : helmets_) helmet->step();
+  coordinator_->step();
+}
+
+bool Fleet::finished() const {
+  return std::all_of(helmets_.begin(), helmets_.end(),
+                     [](const auto& helmet) { return helmet->finished(); });
+}
+
 Settlement Fleet::run(Duration deadline) {
   Settlement now = Settlement::working;
   for (Duration passed{}; passed < deadline && now != Settlement::shared; passed += kTick) {
-    clock_.advance(kTick);
-    bool finished = true;
-    for (auto& helmet : helmets_) {
-      helmet->step();
-      finished = finished && helmet->finished();
-    }
-    coordinator_->step();
-    if (finished) now = settlement(*coordinator_, helmets_.size());
+    step();
+    if (finished()) now = settlement(*coordinator_, helmets_.size());
   }
   return now;
 }
@@ -59,11 +66,12 @@ CoordinatorSettings Fleet::default_settings() {
   return {speaker("coordinator"), GridGeometry{}, {}, {}};
 }
 
+Pose2 true_T_world_map(const HelmetMapper& mapper) {
+  return mapper.truth().front().pose * mapper.trajectory().front().pose.inverse();
+}
+
 Pose2 true_T_a_b(const HelmetMapper& a, const HelmetMapper& b) {
-  const auto T_world_map = [](const HelmetMapper& mapper) {
-    return mapper.truth().front().pose * mapper.trajectory().front().pose.inverse();
-  };
-  return T_world_map(a).inverse() * T_world_map(b);
+  return true_T_world_map(a).inverse() * true_T_world_map(b);
 }
 
 }  // namespace lifeline::test

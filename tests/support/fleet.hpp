@@ -43,18 +43,25 @@ class Fleet {
   /// Steps everybody each 100 ms of the clock until all hold the same map, or for `deadline` of the
   /// clock.
   Settlement run(Duration deadline);
+  /// Steps everybody once, 100 ms on.
+  void step();
 
   [[nodiscard]] const std::vector<std::unique_ptr<Helmet>>& helmets() const { return helmets_; }
   [[nodiscard]] const Coordinator& coordinator() const { return *coordinator_; }
   [[nodiscard]] static CoordinatorSettings default_settings();
 
  private:
+  [[nodiscard]] bool finished() const;
+
   ManualClock clock_;
   wire::LoopbackBus bus_;
   InlineMatchWorker worker_{matching::MatchConfig{}};
   std::vector<std::unique_ptr<Helmet>> helmets_;
   std::unique_ptr<Coordinator> coordinator_;
 };
+
+/// Where a helmet's map truly lies in the world.
+[[nodiscard]] Pose2 true_T_world_map(const HelmetMapper& mapper);
 
 /// T_G as it truly is: where map b lies in map a, from where both helmets truly began.
 [[nodiscard]] Pose2 true_T_a_b(const HelmetMapper& a, const HelmetMapper& b);

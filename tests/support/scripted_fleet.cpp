@@ -21,7 +21,7 @@ const wire::DirectiveMember& member(const wire::MergeDirective& directive, const
 }  // namespace
 
 ScriptedHelmet::ScriptedHelmet(const std::string& id, wire::LoopbackBus& bus, const Clock& clock)
-    : sharing_(sharing_config(id), helmet_channels(bus), clock) {}
+    : sharing_(eager_sharing_config(id), helmet_channels(bus), clock) {}
 
 void ScriptedHelmet::show(const TsdGrid& layer) {
   sharing::MapTiles changed;

@@ -9,9 +9,8 @@
 #include "common/base/ids.hpp"
 #include "common/grid/tsd_cell.hpp"
 #include "common/sharing/replica_store.hpp"
+#include "common/sharing/tile_samples.hpp"
 #include "common/wire/messages.hpp"
-#include "common/wire/tile_codec.hpp"
-#include "common/wire/tile_parts.hpp"
 
 namespace lifeline::test {
 
@@ -54,20 +53,8 @@ inline QuantisedTile small_tile(std::mt19937& random) {
 inline std::vector<wire::TsdTile> tile_samples(const LayerKey& key, TileIndex tile,
                                                std::uint64_t revision, const QuantisedTile& cells,
                                                const GridGeometry& geometry = {}) {
-  wire::TsdTile sample;
-  sample.envelope = envelope(key.agent_id.text(), revision);
-  sample.layer = {key.agent_id.text(), key.map_id.value, key.floor.value};
-  sample.tile_x = tile.x;
-  sample.tile_y = tile.y;
-  sample.revision = revision;
-  const auto parts = wire::split_payload(wire::encode_tile(cells, geometry));
-  sample.parts = static_cast<std::uint8_t>(parts.size());
-  std::vector<wire::TsdTile> samples;
-  for (const auto& part : parts) {
-    sample.part = static_cast<std::uint8_t>(samples.size());
-    sample.payload = part;
-    samples.push_back(sample);
-  }
+  auto samples = sharing::tile_samples(key, tile, Revision{revision}, cells, geometry);
+  for (auto& sample : samples) sample.envelope = envelope(key.agent_id.text(), revision);
   return samples;
 }
 
@@ -85,6 +72,25 @@ inline Result<sharing::Applied> apply(sharing::ReplicaStore& store,
   Result<sharing::Applied> outcome = sharing::Applied::older;
   for (const auto& sample : samples) outcome = store.apply(sample);
   return outcome;
+}
+
+/// A victim that `key`'s helmet reports at (x, y) in its map frame, first seen and last seen at
+/// these seconds of its clock.
+inline wire::Detection detection(const LayerKey& key, std::uint32_t id, double x_m, double y_m,
+                                 std::int64_t first_s = 1, std::int64_t last_s = 2) {
+  wire::Detection sample;
+  sample.envelope = envelope(key.agent_id.text());
+  sample.agent_id = key.agent_id.text();
+  sample.detection_id = id;
+  sample.revision = 1;
+  sample.map_id = key.map_id.value;
+  sample.floor = key.floor.value;
+  sample.x_m = x_m;
+  sample.y_m = y_m;
+  sample.confidence = 0.5F;
+  sample.first_seen_at_ns = first_s * 1'000'000'000;
+  sample.seen_at_ns = last_s * 1'000'000'000;
+  return sample;
 }
 
 }  // namespace lifeline::test

@@ -11,6 +11,7 @@
 #include "agents/sources/simulator/draw.hpp"
 #include "agents/sources/simulator/office.hpp"
 #include "common/base/check.hpp"
+#include "common/wire/coarse_cells.hpp"
 #include "coordinator/matching/match_maps.hpp"
 #include "coordinator/matching/stop_watch.hpp"
 #include "tests/bench/merge/path_report.hpp"
@@ -71,10 +72,15 @@ void judge(const matching::MatchResult& result, const Pose2& T_a_b, Outcome& out
   outcome.degrees.push_back(error_deg);
 }
 
-}  // namespace
+/// What a coordinator gets of a layer by default.
+TsdGrid as_shared(const TsdGrid& layer) {
+  TsdGrid shared(layer.geometry());
+  for (const TileIndex tile : layer.tiles())
+    shared.at(tile) = dequantise(wire::coarse(quantise(*layer.find(tile))));
+  return shared;
+}
 
-void write_fleet_rows(Report& report) {
-  const std::vector<HelmetMap> maps = walk();
+void write_rows(const std::vector<HelmetMap>& maps, const std::string& kind, Report& report) {
   matching::StopWatch watch;
   std::vector<matching::MapFeatures> features;
   for (const HelmetMap& map : maps) features.push_back(matching::build_features(map.layer).value());
@@ -92,7 +98,7 @@ void write_fleet_rows(Report& report) {
   }
   const double pairs_ms = watch.lap_ms();
 
-  const std::string name = fmt::format("{} helmets, {:.0f} m2 each", kHelmets, known_m2);
+  const std::string name = fmt::format("{} helmets, {:.0f} m2 each{}", kHelmets, known_m2, kind);
   const auto add = [&](const std::string& what, double value, const char* unit,
                        std::optional<Bar> bar = {}) {
     report.rows.push_back({name + ": " + what, value, unit, bar, {}});
@@ -111,6 +117,15 @@ void write_fleet_rows(Report& report) {
   add("error to the exact truth, p95", quantile(outcome.metres, 0.95), "m", at_most(0.06));
   add("error to the exact truth, median", quantile(outcome.degrees, 0.5), "deg", at_most(0.06));
   add("error to the exact truth, p95", quantile(outcome.degrees, 0.95), "deg", at_most(0.3));
+}
+
+}  // namespace
+
+void write_fleet_rows(Report& report) {
+  std::vector<HelmetMap> maps = walk();
+  write_rows(maps, "", report);
+  for (HelmetMap& map : maps) map.layer = as_shared(map.layer);
+  write_rows(maps, ", coarse", report);
 }
 
 }  // namespace lifeline::bench

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "tests/bench/command_line.hpp"
 #include "tests/bench/merge/cross_validation.hpp"
 #include "tests/bench/merge/fleet_pairs.hpp"
 #include "tests/bench/merge/handheld_maps.hpp"
@@ -125,12 +126,7 @@ int run_merge_bench(std::span<const char* const> arguments) {
       ->expected(0, 1)
       ->default_str("10000");
   app.add_option("--seed", options.seed, "of the pairs that must not be merged");
-  std::vector<std::string> words(arguments.rbegin(), arguments.rend());
-  try {
-    app.parse(words);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
-  }
+  if (const auto status = parse_arguments(app, arguments)) return *status;
   return options.negatives ? run_hard_negatives(options) : run_pairs(options);
 }
 

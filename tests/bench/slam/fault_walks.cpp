@@ -22,11 +22,14 @@ using sensing::RawScan;
 
 /// Found again further off than this is found wrongly.
 constexpr double kWrongM = 0.3;
+/// A helmet that was killed has to be back by then.
+constexpr double kBackS = 10.0;
 
 struct FaultFigures {
   bool lost = false;
   bool found = false;
-  double waited_s = 0.0;  ///< from the end of the fault
+  double waited_s = 0.0;         ///< from the end of the fault
+  std::optional<double> back_s;  ///< from there until a scan was matched and used
   int wrong = 0;
   double worst_m = 0.0;  ///< while it did not say that it was lost, from the fault on
   int pushed_lost = 0;
@@ -45,11 +48,11 @@ class FaultyHelmet {
     times_ = {};
     return slam_->step(scan, motion, faults.any());
   }
-  void restart() {
+  void restart(std::optional<slam::LastPlace> last) {
     TsdGrid layer(slam_->layer().geometry());
     for (const TileIndex tile : slam_->layer().tiles()) layer.at(tile) = *slam_->layer().find(tile);
     slam_ = make();
-    slam_->resume(std::move(layer));
+    slam_->resume(std::move(layer), last);
     slam_->time_stages(&times_);
     motion_ = {};
     check_ = slam::ScanCheck{};
@@ -72,15 +75,25 @@ class FaultyHelmet {
 FaultFigures play(const Fault& fault, const std::vector<RawScan>& walk) {
   FaultFigures figures;
   FaultyHelmet helmet;
-  const Pose2 T_map_world = walk.front().T_world_head_truth->inverse();
+  Pose2 T_map_world = walk.front().T_world_head_truth->inverse();
   const std::size_t first = walk.size() / 2;
   const std::size_t end = first + static_cast<std::size_t>(fault.scans);
+  slam::LastPlace last;
   for (std::size_t k = 0; k < walk.size(); ++k) {
     RawScan raw = walk[k];
     if (k >= first && k < end) fault.spoil(raw, static_cast<int>(k - first));
-    if (k == end && fault.restarts) helmet.restart();
+    if (fault.away && k >= first && k < end) continue;
+    if (k == end && fault.restarts) {
+      helmet.restart(fault.away ? std::optional(last) : std::nullopt);
+    }
     const slam::SlamStep step = helmet.step(raw);
-    if (k < first) continue;
+    if (k < first) {
+      // What comes after is judged in the map as it is by then, drift and all.
+      T_map_world = step.T_map_head * walk[k].T_world_head_truth->inverse();
+      last.T_map_head = step.T_map_head;
+      last.ago = walk[end].stamp - walk[k].stamp;
+      continue;
+    }
     const Pose2 truth = T_map_world * *walk[k].T_world_head_truth;
     const double off_m = (truth.translation() - step.T_map_head.translation()).norm();
     if (step.lost) figures.search_ms.push_back(helmet.relocalise_ms());
@@ -94,6 +107,7 @@ FaultFigures play(const Fault& fault, const std::vector<RawScan>& walk) {
     // A helmet that dead reckons says so by its trust; what it uses as its place must be right.
     if (!step.lost && step.verdict == slam::Verdict::accepted) {
       figures.worst_m = std::max(figures.worst_m, off_m);
+      if (k >= end && !figures.back_s) figures.back_s = to_seconds(walk[k].stamp - walk[end].stamp);
     }
   }
   return figures;
@@ -113,6 +127,15 @@ Fault filled(const char* name, float with) {
           .loses = false};
 }
 
+ReportRow back_row(const std::string& name, const std::vector<FaultFigures>& all) {
+  const auto in_time = std::count_if(all.begin(), all.end(), [](const FaultFigures& figures) {
+    return figures.back_s.value_or(kBackS + 1.0) <= kBackS;
+  });
+  return {fmt::format("{}: back within {:.0f} s", name, kBackS), static_cast<double>(in_time),
+          fmt::format("of {}", all.size()),
+          Bar{Bar::Side::at_least, static_cast<double>(all.size())}};
+}
+
 }  // namespace
 
 std::vector<Fault> all_faults() {
@@ -127,6 +150,13 @@ std::vector<Fault> all_faults() {
   faults.push_back({.name = "covered for 10 s", .scans = 100, .spoil = cover});
   faults.push_back({.name = "carried for 10 s, heading unknown", .scans = 100, .spoil = carry});
   faults.push_back({.name = "restarted in its map", .scans = 0, .spoil = cover, .restarts = true});
+  for (const int away_s : {1, 3, 6}) {
+    faults.push_back({.name = fmt::format("walked on while it restarted for {} s", away_s),
+                      .scans = 10 * away_s,
+                      .spoil = [](RawScan&, int) {},
+                      .restarts = true,
+                      .away = true});
+  }
   faults.push_back(filled("1 s all invalid", 0.0F));
   faults.push_back(filled("1 s of NaN", std::numeric_limits<float>::quiet_NaN()));
   faults.push_back(filled("1 s of +inf", std::numeric_limits<float>::infinity()));
@@ -187,6 +217,7 @@ std::vector<ReportRow> fault_rows(const Fault& fault,
        Bar{Bar::Side::at_most, 0.5}},
       {name + ": places found wrongly", static_cast<double>(wrong), "", none},
       {name + ": pushed while lost", static_cast<double>(pushed), "", none}};
+  if (fault.away) rows.push_back(back_row(name, all));
   if (lost == 0 && !fault.loses) return rows;
   rows.push_back({name + ": lost", static_cast<double>(lost), fmt::format("of {}", walks.size())});
   rows.push_back({name + ": found again", static_cast<double>(found), fmt::format("of {}", lost)});

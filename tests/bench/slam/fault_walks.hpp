@@ -16,7 +16,8 @@ struct Fault {
   int scans = 0;  ///< that it lasts
   /// Changes scan `i` of the fault.
   std::function<void(sensing::RawScan&, int i)> spoil;
-  bool restarts = false;  ///< then the helmet goes on with its layer alone, its place unknown
+  bool restarts = false;  ///< then the helmet goes on with its layer alone, its place unknown ...
+  bool away = false;      ///< ... or, after a time without a process, known from before that
   bool loses = true;      ///< it is expected to be lost by then
 };
 

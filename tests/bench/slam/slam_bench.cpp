@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "agents/sources/open_source.hpp"
+#include "tests/bench/command_line.hpp"
 #include "tests/bench/slam/fault_walks.hpp"
 #include "tests/bench/slam/slam_judge.hpp"
 

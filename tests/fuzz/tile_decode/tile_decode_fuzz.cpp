@@ -1,6 +1,6 @@
 // Any bytes as a tile from the radio: refused, or a valid tile that survives being sent on. The
-// first byte chooses: even, the rest is a payload; odd, the rest is compressed first, so that the
-// fuzzer gets past the frame and its checksum.
+// first byte, modulo 3, chooses: 0, the rest is a payload; 1, the rest is compressed first, so that
+// the fuzzer gets past the frame and its checksum; 2, the rest is the code of coarse cells.
 
 #include <cstdint>
 #include <cstdlib>
@@ -9,6 +9,8 @@
 
 #include <zstd.h>
 
+#include "common/wire/coarse_cells.hpp"
+#include "common/wire/coarse_tile.hpp"
 #include "common/wire/tile_codec.hpp"
 
 namespace {
@@ -31,7 +33,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using lifeline::QuantisedCell;
   if (size == 0) return 0;
   const std::span<const std::uint8_t> rest(data + 1, size - 1);
-  const auto tile = data[0] % 2 == 0 ? lifeline::wire::decode_tile(rest, kGeometry)
+  if (data[0] % 3 == 2) {  // the code of coarse cells, behind its checksum
+    const auto cells = lifeline::wire::decode_cells(rest);
+    require(lifeline::wire::is_coarse(cells));
+    require(lifeline::wire::decode_cells(lifeline::wire::encode_cells(cells)) == cells);
+    return 0;
+  }
+  const auto tile = data[0] % 3 == 0 ? lifeline::wire::decode_tile(rest, kGeometry)
                                      : lifeline::wire::decode_tile(compressed(rest), kGeometry);
   if (!tile) {
     require(!tile.error().text.empty() && tile.error().text.find('\n') == std::string::npos);

@@ -43,9 +43,10 @@ class Channels : public ::testing::Test {
   std::unique_ptr<Participant> bravo_ = join(domain_, "bravo");
 };
 
-using Messages = ::testing::Types<wire::HelmetPose, wire::HelmetScan, wire::TsdTile,
-                                  wire::TileRequest, wire::MergeDirective, wire::MergeEvidence,
-                                  wire::AgentStatus, wire::Detection, wire::Alert>;
+using Messages =
+    ::testing::Types<wire::HelmetPose, wire::HelmetScan, wire::TsdTile, wire::TileRequest,
+                     wire::TileCopy, wire::MergeDirective, wire::DirectiveCopy, wire::MergeEvidence,
+                     wire::AgentStatus, wire::Detection, wire::Alert>;
 TYPED_TEST_SUITE(Channels, Messages);
 
 TYPED_TEST(Channels, carry_a_message_to_others_and_not_to_oneself) {

@@ -11,7 +11,7 @@
 
 #include "agents/rplidar/frames.hpp"
 #include "agents/rplidar/sample_decoder.hpp"
-#include "tests/integration/rplidar/logged.hpp"
+#include "tests/support/logged.hpp"
 #include "tests/support/rplidar/emulator.hpp"
 #include "tests/support/rplidar/sent_samples.hpp"
 

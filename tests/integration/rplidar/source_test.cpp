@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "agents/rplidar/rplidar_source.hpp"
-#include "tests/integration/rplidar/logged.hpp"
+#include "tests/support/logged.hpp"
 #include "tests/support/rplidar/emulator.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -79,11 +79,6 @@ std::vector<EmulatedFrame> RplidarEmulator::frames() const {
   return frames_;
 }
 
-double RplidarEmulator::emulated_s() const {
-  std::lock_guard lock(mutex_);
-  return static_cast<double>(samples_made_us_q8_) / 256e6;
-}
-
 void RplidarEmulator::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     bool idle = false;
@@ -248,7 +243,6 @@ void RplidarEmulator::stream() {
     if (options_.real_time && pending_->last_sample_s + delay_s > elapsed_s) return;
     if (!options_.real_time && silent_) return;
     angle_deg_ = maker_->angle_deg();
-    samples_made_us_q8_ += std::uint64_t{mode.us_per_sample_q8} * pending_->quarters.size();
     if (!silent_) {
       ++frames_made_;
       send(pending_->bytes, true);

@@ -58,8 +58,6 @@ class RplidarEmulator {
   [[nodiscard]] std::uint64_t frames_made() const { return frames_made_; }
   /// The frames of the last scan as they went out, before any noise.
   [[nodiscard]] std::vector<EmulatedFrame> frames() const;
-  /// Seconds of measuring since the emulator began, on its own clock: a sample each us_per_sample.
-  [[nodiscard]] double emulated_s() const;
 
  private:
   void run(const std::stop_token& stop);
@@ -86,7 +84,6 @@ class RplidarEmulator {
   SteadyTime scan_began_{};
   double angle_deg_ = 0.0;
   std::vector<EmulatedFrame> frames_;
-  std::uint64_t samples_made_us_q8_ = 0;
   std::uint8_t health_status_ = 0;
   std::uint16_t health_code_ = 0;
   std::atomic<bool> silent_{false}, stalled_{false}, heals_{false}, scanning_{false};

@@ -94,6 +94,12 @@ class Demo(unittest.TestCase):
             self.assertLessEqual(MERGE_FIELDS, merge.keys())
             self.assertLessEqual(merge["error_m"], 0.10)
             self.assertLessEqual(merge["error_deg"], 1.0)
+        self.assertIs(summary["detections_agree"], True)
+        self.assertEqual(sorted(find["kind"] for find in summary["detections"]), ["uwb_tag"] + 3 * ["victim"])
+        for find in summary["detections"]:
+            self.assertEqual(find["frame"], "common")
+            self.assertLessEqual(find["error_m"], 0.5)
+            self.assertIn(find["first_seen"]["by"], find["seen_by"])
         self.assertIn("all share one map", done.stdout)
         self.assertTrue(gone_within(self.report, 5), processes_about(self.report))
 

@@ -156,6 +156,17 @@ TEST_F(BadInputTest, ReportFolderThatCannotBeWritten) {
   expect_refused({"lifeline-demo", "--report", report}, 1, {report});
 }
 
+TEST_F(BadInputTest, DashboardAddressThatIsNone) {
+  expect_refused({"lifeline-coordinator", "run", "--dashboard", "8642"}, 2,
+                 {"'8642'", "127.0.0.1:8642", "off"});
+}
+
+TEST_F(BadInputTest, DashboardPortThatIsNotOurs) {
+  // An address of documentation's own (RFC 5737): no machine has it.
+  expect_refused({"lifeline-coordinator", "run", "--domain", "77", "--dashboard", "192.0.2.1:8642"},
+                 1, {"192.0.2.1:8642", "--dashboard"});
+}
+
 TEST_F(BadInputTest, AgentIdThatIsNone) {
   expect_refused({"lifeline-agent", "run", "--id", "al pha", "--source", "sim:office"}, 2,
                  {"agent id"});

@@ -7,12 +7,16 @@
 #include <sstream>
 #include <thread>
 
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include "common/base/ids.hpp"
 #include "common/wire/tile_codec.hpp"
 #include "common/wire/tile_parts.hpp"
+#include "coordinator/dashboard/listen_address.hpp"
 #include "deploy/demo/free_domain.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -42,7 +46,28 @@ class FleetProgramsTest : public testing::Test {
   std::string qos_ = LIFELINE_SOURCE_DIR "/config/qos/loopback.xml";
 };
 
+/// Nobody else listens at the dashboard's default address, whoever has it now.
+class TakenDashboardAddress {
+ public:
+  TakenDashboardAddress() : handle_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(dashboard::kDefaultPort);
+    // Refused where another program listens there: as good.
+    (void)::bind(handle_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    (void)::listen(handle_, 1);
+  }
+  ~TakenDashboardAddress() { ::close(handle_); }
+  TakenDashboardAddress(const TakenDashboardAddress&) = delete;
+  TakenDashboardAddress& operator=(const TakenDashboardAddress&) = delete;
+
+ private:
+  int handle_;
+};
+
 TEST_F(FleetProgramsTest, EveryProcessOfTheDemoEndsWithTheSameCommonMap) {
+  const TakenDashboardAddress taken;  // a page that cannot be shown harms nothing else
   const Ended ended = run_program({"lifeline-demo", "--helmets", "2", "--report", report()},
                                   folder_.path() / "log", seconds(150));
   ASSERT_EQ(ended.status, 0) << ended.output;

@@ -5,10 +5,10 @@
 
 #include <gmock/gmock.h>
 
-#include "common/base/command_line.hpp"
 #include "common/base/config_folder.hpp"
 #include "common/base/log.hpp"
 #include "common/base/stop_signal.hpp"
+#include "common/cli/command_line.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace lifeline {
@@ -55,8 +55,8 @@ int parse(std::vector<const char*> words) {
   CLI::App app("a program", "prog");
   int status = 7;
   app.add_subcommand("go", "goes");
-  return parse_command_line(app, static_cast<int>(words.size()), const_cast<char**>(words.data()),
-                            status);
+  return cli::parse_command_line(app, static_cast<int>(words.size()),
+                                 const_cast<char**>(words.data()), status);
 }
 
 TEST(CommandLine, AnswersTheExitStatus) {

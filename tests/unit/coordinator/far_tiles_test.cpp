@@ -4,10 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/wire/loopback.hpp"
 #include "coordinator/coordinator.hpp"
 #include "coordinator/report.hpp"
-#include "tests/support/sharing_samples.hpp"
+#include "tests/support/fleet_channels.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/tiles.hpp"
 
@@ -40,13 +39,7 @@ class FarTiles : public testing::Test {
   ManualClock clock_;
   wire::LoopbackBus bus_;
   InlineMatchWorker worker_{matching::MatchConfig{}};
-  Coordinator coordinator_{matching_everything(),
-                           {bus_.reader<wire::TsdTile>(), bus_.reader<wire::HelmetPose>(),
-                            bus_.reader<wire::AgentStatus>(), bus_.writer<wire::MergeDirective>(),
-                            bus_.writer<wire::MergeEvidence>(), bus_.writer<wire::AgentStatus>(),
-                            [] { return std::uint64_t{0}; }},
-                           worker_,
-                           clock_};
+  Coordinator coordinator_{matching_everything(), coordinator_channels(bus_), worker_, clock_};
   std::unique_ptr<wire::Outbox<wire::TsdTile>> tiles_ = bus_.writer<wire::TsdTile>();
   std::uint64_t revision_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/wire/coarse_cells.hpp"
 #include "tests/support/tiles.hpp"
 
 namespace lifeline {
@@ -42,6 +43,32 @@ TEST(LayerWatch, AWallThatIsForgottenIsRevised) {
   EXPECT_GT(watch.revised_cells(), 500U / 2);
   EXPECT_EQ(watch.wall_cells(), 0U);
   EXPECT_TRUE(watch.extent(0.05).isEmpty());
+}
+
+std::shared_ptr<const QuantisedTile> coarse_wall(double offset_cells,
+                                                 const QuantisedTile* held = nullptr) {
+  return std::make_shared<const QuantisedTile>(wire::coarse(*wall(offset_cells), held));
+}
+
+TEST(LayerWatch, ACoarseWallThatWavesByHalfACellIsNotRevised) {
+  LayerWatch watch;
+  auto held = coarse_wall(0.0);
+  for (int i = 0; i < 60; ++i) {
+    watch.note({0, 0}, held);
+    held = coarse_wall(0.25 * (i % 3 - 1), held.get());
+  }
+  EXPECT_EQ(watch.revised_cells(), 0U);
+}
+
+TEST(LayerWatch, ACoarseWallThatMovedByTwoCellsIsRevised) {
+  for (const double moved : {-2.0, 2.0}) {
+    LayerWatch watch;
+    const auto held = coarse_wall(0.0);
+    watch.note({0, 0}, held);
+    const auto before = watch.wall_cells();
+    watch.note({0, 0}, coarse_wall(moved, held.get()));
+    EXPECT_GT(watch.revised_cells(), before / 10) << moved;  // from 3 % on pairs are matched again
+  }
 }
 
 TEST(LayerWatch, TheExtentHoldsWhatIsKnownAndNoMore) {

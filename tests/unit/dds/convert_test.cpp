@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/dds/type_support.hpp"
+#include "tests/support/tile_octets.hpp"
 #include "tests/unit/dds/message_fields.hpp"
 
 namespace lifeline::dds {
@@ -11,9 +12,10 @@ namespace {
 template <typename Message>
 class Convert : public ::testing::Test {};
 
-using Messages = ::testing::Types<wire::HelmetPose, wire::HelmetScan, wire::TsdTile,
-                                  wire::TileRequest, wire::MergeDirective, wire::MergeEvidence,
-                                  wire::AgentStatus, wire::Detection, wire::Alert>;
+using Messages =
+    ::testing::Types<wire::HelmetPose, wire::HelmetScan, wire::TsdTile, wire::TileRequest,
+                     wire::TileCopy, wire::MergeDirective, wire::DirectiveCopy, wire::MergeEvidence,
+                     wire::AgentStatus, wire::Detection, wire::Alert>;
 TYPED_TEST_SUITE(Convert, Messages);
 
 TYPED_TEST(Convert, every_field_comes_back) {
@@ -47,6 +49,20 @@ TYPED_TEST(Convert, every_field_survives_the_wire) {
 
   EXPECT_TRUE(received.decodable);
   EXPECT_TRUE(testing::same(from_idl(received.value), message));
+}
+
+TEST(TileOctets, count_what_the_middleware_writes) {
+  for (const std::size_t size : {1U, 9U, 10U, 11U, 12U, 500U, 1000U}) {
+    auto message = testing::filled<wire::TsdTile>();
+    message.payload.assign(size, 7);
+    message.layer.agent_id.resize(1 + size % 7, 'x');
+    TypeSupportOf<wire::TsdTile> type;
+    SampleOf<wire::TsdTile> sample;
+    ASSERT_TRUE(to_idl(message, sample.value));
+    rtps::SerializedPayload_t payload(type.m_typeSize);
+    ASSERT_TRUE(type.serialize(&sample, &payload));
+    EXPECT_EQ(payload.length, test::tile_octets(message)) << size;
+  }
 }
 
 TEST(ConvertEnum, a_wide_unknown_value_does_not_become_a_known_one) {

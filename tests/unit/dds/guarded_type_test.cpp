@@ -44,9 +44,10 @@ class GuardedTypeOf : public ::testing::Test {
   TypeSupportOf<Message> type_;
 };
 
-using Messages = ::testing::Types<wire::HelmetPose, wire::HelmetScan, wire::TsdTile,
-                                  wire::TileRequest, wire::MergeDirective, wire::MergeEvidence,
-                                  wire::AgentStatus, wire::Detection, wire::Alert>;
+using Messages =
+    ::testing::Types<wire::HelmetPose, wire::HelmetScan, wire::TsdTile, wire::TileRequest,
+                     wire::TileCopy, wire::MergeDirective, wire::DirectiveCopy, wire::MergeEvidence,
+                     wire::AgentStatus, wire::Detection, wire::Alert>;
 TYPED_TEST_SUITE(GuardedTypeOf, Messages);
 
 TYPED_TEST(GuardedTypeOf, announces_no_type_objects) {

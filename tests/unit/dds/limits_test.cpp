@@ -37,7 +37,8 @@ TEST(Limits, are_the_bounds_of_the_idl) {
             (Bounds{{"Name", kMaxIdLength}, {"signature", kMaxSignature}}));
   EXPECT_EQ(bounds_in("map.idl"), (Bounds{{"ranges_cm", kMaxScanBeams},
                                           {"payload", kMaxTilePart},
-                                          {"tiles", kMaxTilesPerRequest}}));
+                                          {"payload", kMaxTilePart},  // of copies
+                                          {"held", kMaxTilesPerRequest}}));
   EXPECT_EQ(
       bounds_in("merge.idl"),
       (Bounds{{"members", kMaxMembers}, {"reason", kMaxReason}, {"candidates", kMaxCandidates}}));
@@ -61,11 +62,13 @@ TEST(Limits, nothing_in_the_idl_is_unbounded) {
   }
 }
 
-TEST(Limits, a_part_of_a_tile_fits_into_one_message_of_the_radio) {
+TEST(Limits, tiles_and_requests_fit_into_one_message_of_the_radio) {
   // What Fast DDS 2.9 leaves of 1,400 octets: less its header (20), the destination (16), time
   // (12), the submessage with its inline QoS (36 + 28) and a heartbeat (32).
   constexpr std::uint32_t kRoom = 1400 - 20 - 16 - 12 - 36 - 28 - 32;
   EXPECT_LE(dds::TypeSupportOf<TsdTile>().m_typeSize, kRoom);
+  EXPECT_LE(dds::TypeSupportOf<TileCopy>().m_typeSize, kRoom);
+  EXPECT_LE(dds::TypeSupportOf<TileRequest>().m_typeSize, kRoom);
 }
 
 }  // namespace

@@ -39,8 +39,11 @@ template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::TileName> {
   auto& [a, b, c] = m; return std::tie(a, b, c);
 }
+template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::TileCopy> {
+  auto& [a, b, c, d, e, f, g, h] = m; return std::tie(a, b, c, d, e, f, g, h);
+}
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::TileRequest> {
-  auto& [a, b, c, d] = m; return std::tie(a, b, c, d);
+  auto& [a, b, c, d, e, f, g, h, i] = m; return std::tie(a, b, c, d, e, f, g, h, i);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::FixedTransform> {
   auto& [a, b, c, d] = m; return std::tie(a, b, c, d);
@@ -50,6 +53,9 @@ template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::MergeDirective> {
   auto& [a, b, c, d, e] = m; return std::tie(a, b, c, d, e);
+}
+template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::DirectiveCopy> {
+  auto& [a, b, c] = m; return std::tie(a, b, c);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::MergeCandidate> {
   auto& [a, b, c, d, e, f] = m; return std::tie(a, b, c, d, e, f);
@@ -61,11 +67,12 @@ template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_
   auto& [a, b, c] = m; return std::tie(a, b, c);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::AgentStatus> {
-  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r, s, t, u, v, w, x, y] = m;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r, s, t, u, v, w, x, y);
+  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r, s, t, u, v, w, x, y, z, aa] = m;
+  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r, s, t, u, v, w, x, y, z, aa);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::Detection> {
-  auto& [a, b, c, d, e, f, g, h, i, j, k] = m; return std::tie(a, b, c, d, e, f, g, h, i, j, k);
+  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n] = m;
+  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, n);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::Alert> {
   auto& [a, b, c, d, e, f, g, h] = m; return std::tie(a, b, c, d, e, f, g, h);

@@ -63,11 +63,19 @@ class QosProfiles : public ::testing::Test {
   const std::filesystem::path folder_, file_;
 };
 
+/// What a file of that name is for.
+ProfileNames names_of(const std::filesystem::path& file) {
+  if (!file.filename().string().starts_with("ros2")) return mission_profiles();
+  return {"ros2_participant",
+          {"ros2_map_writer", "ros2_stream_writer"},
+          {"ros2_scan_reader", "ros2_imu_reader"}};
+}
+
 Result<void> load(const std::filesystem::path& file) {
   route_middleware_log();
   const std::lock_guard lock(profiles_mutex());
   const LogCapture capture;
-  return load_qos_profiles(file, capture);
+  return load_qos_profiles(file, names_of(file), capture);
 }
 
 TEST_F(QosProfiles, the_shipped_files_load) {
@@ -75,6 +83,12 @@ TEST_F(QosProfiles, the_shipped_files_load) {
     const auto loaded = load(entry.path());
     EXPECT_TRUE(loaded) << loaded.error().text;
   }
+}
+
+TEST_F(QosProfiles, a_file_for_ros2_is_none_for_a_mission) {
+  EXPECT_EQ(
+      refusal_of(kShipped / "ros2.xml"),
+      (kShipped / "ros2.xml").string() + ": participant profile 'lifeline_participant' is missing");
 }
 
 TEST_F(QosProfiles, a_participant_starts_on_loopback_xml) {

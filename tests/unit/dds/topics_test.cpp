@@ -18,7 +18,8 @@ TEST(Topics, each_message_has_one_under_its_documented_name) {
   std::vector<std::string> names;
   for_each_topic([&](const auto& topic) { names.emplace_back(topic.name); });
   EXPECT_EQ(names, (std::vector<std::string>{"lifeline/pose", "lifeline/scan", "lifeline/tsd_tile",
-                                             "lifeline/tile_request", "lifeline/merge_directive",
+                                             "lifeline/tile_request", "lifeline/tile_copy",
+                                             "lifeline/merge_directive", "lifeline/directive_copy",
                                              "lifeline/merge_evidence", "lifeline/agent_status",
                                              "lifeline/detection", "lifeline/alert"}));
   EXPECT_EQ(topic_of<wire::TsdTile>().name, "lifeline/tsd_tile");

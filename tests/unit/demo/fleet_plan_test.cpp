@@ -38,12 +38,34 @@ TEST(HelmetName, is_another_one_for_each_helmet) {
 }
 
 TEST(PlanWalk, gives_each_helmet_a_walker_of_its_own_in_the_same_building) {
-  const FleetPlan fleet =
-      plan_walk({.plan = "office", .duration_s = 120.0, .speed = 2.5, .seed = 7}, 2);
-  ASSERT_EQ(fleet.helmets.size(), 2U);
-  EXPECT_EQ(fleet.helmets[0].source, "sim:office?walkers=2&walker=0&seed=7&duration=120&rate=x2.5");
-  EXPECT_EQ(fleet.helmets[1].source, "sim:office?walkers=2&walker=1&seed=7&duration=120&rate=x2.5");
-  EXPECT_DOUBLE_EQ(fleet.play_s, 48.0);
+  const auto fleet = plan_walk({.plan = "office", .duration_s = 120.0, .speed = 2.5, .seed = 7}, 2);
+  ASSERT_TRUE(fleet);
+  ASSERT_EQ(fleet->helmets.size(), 2U);
+  EXPECT_EQ(fleet->helmets[0].source,
+            "sim:office?walkers=2&walker=0&seed=7&duration=120&victims=3&tags=1&rate=x2.5");
+  EXPECT_EQ(fleet->helmets[1].source,
+            "sim:office?walkers=2&walker=1&seed=7&duration=120&victims=3&tags=1&rate=x2.5");
+  EXPECT_DOUBLE_EQ(fleet->play_s, 48.0);
+}
+
+TEST(PlanWalk, knows_what_is_to_be_found_and_where) {
+  const auto fleet = plan_walk({.duration_s = 120.0}, 2);
+  ASSERT_TRUE(fleet);
+  ASSERT_EQ(fleet->finds.size(), 4U);
+  EXPECT_EQ(fleet->finds.front().kind, "victim");
+  EXPECT_EQ(fleet->finds.back().kind, "uwb_tag");
+  for (const TrueFind& find : fleet->finds) {
+    EXPECT_GT(find.x_m, 0.0);
+    EXPECT_LT(find.x_m, 22.0);
+    EXPECT_GT(find.y_m, 0.0);
+    EXPECT_LT(find.y_m, 16.0);
+  }
+}
+
+TEST(PlanWalk, names_a_plan_that_is_not_there) {
+  const auto fleet = plan_walk({.plan = "/lifeline/none.json", .duration_s = 1.0}, 1);
+  ASSERT_FALSE(fleet);
+  EXPECT_NE(fleet.error().text.find("/lifeline/none.json"), std::string::npos);
 }
 
 TEST(CutLog, gives_every_scan_to_exactly_one_piece) {

@@ -33,7 +33,8 @@ class FleetTest : public testing::Test {
   }
 
   std::filesystem::path folder_;
-  const FleetPlan plan_{.helmets = {{"alpha", "sim:a"}, {"bravo", "sim:b"}}, .play_s = 1.0};
+  const FleetPlan plan_{
+      .helmets = {{"alpha", "sim:a"}, {"bravo", "sim:b"}}, .finds = {}, .play_s = 1.0};
 
  private:
   std::filesystem::path script(const std::string& name, const std::string& text) {

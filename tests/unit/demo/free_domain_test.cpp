@@ -65,9 +65,9 @@ TEST(UdpPortIsFree, sees_a_port_that_somebody_holds) {
   socklen_t length = sizeof address;
   ASSERT_EQ(getsockname(handle, reinterpret_cast<sockaddr*>(&address), &length), 0);
   const std::uint16_t port = ntohs(address.sin_port);
-  EXPECT_FALSE(udp_port_is_free(port));
+  EXPECT_FALSE(net::udp_port_is_free(port));
   close(handle);
-  EXPECT_TRUE(udp_port_is_free(port));
+  EXPECT_TRUE(net::udp_port_is_free(port));
 }
 
 }  // namespace

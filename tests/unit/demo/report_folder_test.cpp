@@ -83,7 +83,8 @@ TEST_F(ReportFolder, lists_the_common_map_before_the_helmets_pictures) {
 
 TEST_F(ReportFolder, knows_each_helmet_s_outcome_even_when_it_left_nothing) {
   write("alpha.json", R"({"scans": 3})");
-  const auto outcomes = read_outcomes(folder_, {.helmets = {{"alpha", ""}, {"bravo", ""}}});
+  const auto outcomes =
+      read_outcomes(folder_, {.helmets = {{"alpha", ""}, {"bravo", ""}}, .finds = {}});
   ASSERT_EQ(outcomes.size(), 2U);
   EXPECT_EQ(outcomes[0].report["scans"], 3);
   EXPECT_FALSE(outcomes[0].rmse_m);

@@ -134,5 +134,33 @@ TEST_F(MergeKeeperTest, TheLeadStaysWhenASmallerNameJoins) {
   EXPECT_EQ(keeper_.plan().groups[0].front().layer, bravo_);
 }
 
+TEST_F(MergeKeeperTest, NoMatchMergesWhatAPersonParted) {
+  take(alpha_bravo_, accepted(T_alpha_bravo_));
+  const auto news = keeper_.part_by_hand(alpha_bravo_);
+  EXPECT_EQ(news.front().reason, "withdrawn by hand");
+  EXPECT_THAT(keeper_.plan().groups, IsEmpty());
+  const auto again = keeper_.take(alpha_bravo_, accepted(T_alpha_bravo_));
+  EXPECT_EQ(again.front().verdict, Verdict::rejected);
+  EXPECT_THAT(again.front().reason, HasSubstr("withdrawn by hand; this match: fits"));
+  EXPECT_FALSE(keeper_.follows(alpha_bravo_));
+  MergeKeeper restarted;
+  restarted.adopt(keeper_.graph().edges(), keeper_.parted_by_hand());
+  (void)restarted.take(alpha_bravo_, accepted(T_alpha_bravo_));
+  EXPECT_FALSE(restarted.follows(alpha_bravo_));
+}
+
+TEST_F(MergeKeeperTest, NoMatchPartsWhatAPersonMerged) {
+  MergeEdge edge = to_edge(accepted(T_alpha_bravo_).result);
+  EXPECT_EQ(keeper_.merge_by_hand(alpha_bravo_, edge).front().verdict, Verdict::accepted);
+  for (int i = 0; i < 4; ++i) take(alpha_bravo_, waiting(T_alpha_bravo_, 0.4));
+  EXPECT_TRUE(keeper_.follows(alpha_bravo_));
+  take(alpha_bravo_, accepted({9.0, 9.0, 0.0}));
+  take(alpha_bravo_, accepted({9.0, 9.0, 0.0}));
+  ASSERT_TRUE(keeper_.plan().T_a_b(alpha_bravo_));
+  EXPECT_NEAR(keeper_.plan().T_a_b(alpha_bravo_)->x_m, T_alpha_bravo_.x_m, 1e-9);
+  (void)keeper_.part_by_hand(alpha_bravo_);
+  EXPECT_FALSE(keeper_.follows(alpha_bravo_));
+}
+
 }  // namespace
 }  // namespace lifeline::merging

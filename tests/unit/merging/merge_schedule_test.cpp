@@ -73,9 +73,13 @@ TEST_F(MergeScheduleTest, OnePairIsMatchedNoMoreThanOnceASecond) {
   EXPECT_TRUE(due({alpha_, bravo_}));
 }
 
-TEST_F(MergeScheduleTest, FinishedMapsAreMatchedOnceMoreIfTheyChanged) {
+TEST_F(MergeScheduleTest, MapsAreMatchedOnceMoreWhenBothAreFinishedAndWhenTheyChangeStill) {
   matched(alpha_, bravo_);
-  alpha_.finished = bravo_.finished = true;
+  alpha_.finished = true;
+  EXPECT_FALSE(due({alpha_, bravo_}));
+  bravo_.finished = true;
+  EXPECT_TRUE(due({alpha_, bravo_}));
+  matched(alpha_, bravo_);
   EXPECT_FALSE(due({alpha_, bravo_}));
   bravo_.changes += 1;
   EXPECT_TRUE(due({alpha_, bravo_}));

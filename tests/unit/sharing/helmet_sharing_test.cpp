@@ -1,71 +1,8 @@
-#include "agents/sharing/helmet_sharing.hpp"
-
-#include <gtest/gtest.h>
-
-#include "agents/sharing/mission_join.hpp"
-#include "common/sharing/fixed_transform.hpp"
-#include "common/wire/loopback.hpp"
-#include "tests/support/sharing_samples.hpp"
+#include "common/wire/coarse_cells.hpp"
+#include "tests/unit/sharing/helmet_sharing_fixture.hpp"
 
 namespace lifeline::sharing {
 namespace {
-
-using std::chrono::milliseconds;
-using test::layer;
-
-Speaker speaker(const std::string& id, std::uint64_t incarnation) {
-  return {AgentId::parse(id).value(), test::kMission, Incarnation{incarnation}};
-}
-
-// A few helmets and a hand-driven coordinator on one bus and one clock.
-class HelmetSharingTest : public testing::Test {
- protected:
-  std::unique_ptr<HelmetSharing> make_helmet(const std::string& id, std::uint64_t incarnation = 1) {
-    HelmetChannels channels{bus_.writer<wire::HelmetPose>(),  bus_.writer<wire::HelmetScan>(),
-                            bus_.writer<wire::TsdTile>(),     bus_.writer<wire::AgentStatus>(),
-                            bus_.reader<wire::TsdTile>(),     bus_.reader<wire::MergeDirective>(),
-                            bus_.reader<wire::AgentStatus>(), [] { return std::uint64_t{0}; }};
-    HelmetSharingConfig config{speaker(id, incarnation), layer(id), {}, publisher_};
-    auto helmet = std::make_unique<HelmetSharing>(config, std::move(channels), clock_);
-    HelmetState state;
-    state.state = wire::AgentState::tracking;
-    helmet->put(state);
-    return helmet;
-  }
-
-  void run(std::initializer_list<HelmetSharing*> helmets, Duration time = milliseconds(3000)) {
-    for (Duration passed{}; passed < time; passed += milliseconds(50)) {
-      clock_.advance(milliseconds(50));
-      for (HelmetSharing* helmet : helmets) helmet->step();
-    }
-  }
-
-  MapTiles random_tiles(std::initializer_list<TileIndex> indices) {
-    MapTiles tiles;
-    for (const TileIndex index : indices) {
-      tiles.emplace_back(index, std::make_shared<const QuantisedTile>(test::random_tile(random_)));
-    }
-    return tiles;
-  }
-
-  void direct(std::uint64_t epoch, const std::vector<std::pair<std::string, Pose2>>& members) {
-    wire::MergeDirective directive;
-    directive.envelope = test::envelope("coordinator", epoch);
-    directive.mission_id = test::kMission;
-    directive.epoch = epoch;
-    for (const auto& [id, T_common_map] : members) {
-      directive.members.push_back({{id, 1, 0}, 0, to_fixed(T_common_map), {}, 1.0F});
-    }
-    ASSERT_TRUE(coordinator_->put(directive));
-  }
-
-  std::mt19937 random_{3};
-  ManualClock clock_;
-  wire::LoopbackBus bus_;
-  TilePublisherConfig publisher_;
-  std::unique_ptr<wire::Outbox<wire::MergeDirective>> coordinator_ =
-      bus_.writer<wire::MergeDirective>();
-};
 
 TEST_F(HelmetSharingTest, HelmetsThatFollowOneDirectiveHoldTheSameMapToTheBit) {
   auto alpha = make_helmet("alpha"), bravo = make_helmet("bravo");
@@ -139,7 +76,7 @@ TEST_F(HelmetSharingTest, PeersArriveInTheHelmetsOwnFrame) {
 }
 
 TEST_F(HelmetSharingTest, OnlyWhatWasPublishedEntersTheOwnCommonMap) {
-  publisher_.budget_bit_s = 8000;
+  budget_bit_s_ = 64000;
   auto alpha = make_helmet("alpha");
   alpha->put(random_tiles({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}));
   run({alpha.get()}, milliseconds(500));
@@ -160,6 +97,18 @@ TEST_F(HelmetSharingTest, AnUnchangedTileIsNotSentAgain) {
   run({alpha.get()});
   EXPECT_TRUE(reader->take().empty());
   EXPECT_EQ(alpha->tiles_behind(), 0U);
+}
+
+TEST_F(HelmetSharingTest, ACoarseHelmetFusesAndSendsTheSameCoarseCells) {
+  publisher_.coarse = true;
+  auto alpha = make_helmet("alpha"), bravo = make_helmet("bravo");
+  const auto tiles = random_tiles({{0, 0}});
+  alpha->put(tiles);
+  run({alpha.get(), bravo.get()});
+  const QuantisedTile expected = wire::coarse(*tiles[0].second);
+  ASSERT_NE(expected, *tiles[0].second);
+  EXPECT_EQ(*alpha->map().store().find(layer("alpha"))->at({0, 0}).cells, expected);
+  EXPECT_EQ(*bravo->map().store().find(layer("alpha"))->at({0, 0}).cells, expected);
 }
 
 TEST_F(HelmetSharingTest, SamplesOfAnotherMissionAreRefusedAndCounted) {

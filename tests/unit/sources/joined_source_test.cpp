@@ -18,18 +18,21 @@ Timestamp at_ms(int ms) {
   return Timestamp(milliseconds(ms));
 }
 
-/// Sweeps of 100 ms, one behind the other.
+/// Sweeps of 100 ms, one behind the other, by a clock that may be set.
 class Sweeps final : public sensing::ScanSource {
  public:
+  explicit Sweeps(const int& set_back_ms) : set_back_ms_(set_back_ms) {}
+
   Result<std::optional<sensing::RawScan>> next() override {
     sensing::RawScan scan;
-    scan.stamp = at_ms(1000 + 100 * count_++);
+    scan.stamp = at_ms(1000 + 100 * count_++ - set_back_ms_);
     scan.sweep_time = milliseconds(100);
     scan.ranges_m.assign(100, 2.0F);
     return std::optional(scan);
   }
 
  private:
+  const int& set_back_ms_;
   int count_ = 0;
 };
 
@@ -71,12 +74,13 @@ sensing::OrientationSample sample(int ms) {
 }
 
 struct Joined {
-  Joined() : source(std::make_unique<Sweeps>(), std::make_unique<Sensor>(sensor)) {}
+  Joined() : source(std::make_unique<Sweeps>(set_back_ms), std::make_unique<Sensor>(sensor)) {}
   void give(int from_ms, int to_ms, int step_ms = 10) {
     for (int ms = from_ms; ms <= to_ms; ms += step_ms) sensor.samples.push_back(sample(ms));
   }
   sensing::RawScan next() { return source.next().value().value(); }
 
+  int set_back_ms = 0;
   Sensor::State sensor;
   JoinedSource source;
 };
@@ -147,6 +151,34 @@ TEST(JoinedSource, AHoleWithinTheSweepLeavesItToTheAttitudeAtTheStamp) {
   const auto scan = joined.next();
   EXPECT_TRUE(scan.attitude);
   EXPECT_TRUE(scan.later_attitudes.empty());
+}
+
+TEST(JoinedSource, FollowsBothClocksWhenTheyAreSetBack) {
+  Joined joined;
+  joined.give(900, 1250);
+  EXPECT_EQ(joined.next().attitude_health, AttitudeHealth::good);
+  joined.set_back_ms = 900;  // the next sweep is stamped 200 ms, and the sensor told of 1250 ms
+  joined.give(150, 550);
+  for (int i = 0; i < 3; ++i) {
+    const auto scan = joined.next();
+    ASSERT_TRUE(scan.attitude) << i;
+    EXPECT_NEAR(scan.attitude->pitch_rad, 1e-3 * (200 + 100 * i - 1000), 1e-6);
+    EXPECT_EQ(scan.attitude_health, AttitudeHealth::good);
+  }
+}
+
+TEST(JoinedSource, ALidarWhoseClockAloneIsSetBackHasNoAttitudeUntilItIsSetRight) {
+  Joined joined;
+  joined.give(900, 1250);
+  (void)joined.next();
+  joined.set_back_ms = 900;
+  joined.give(1260, 1400);
+  EXPECT_FALSE(joined.next().attitude);
+  EXPECT_FALSE(joined.next().attitude);
+  joined.set_back_ms = 0;  // 1300 ms
+  const auto scan = joined.next();
+  ASSERT_TRUE(scan.attitude);
+  EXPECT_NEAR(scan.attitude->pitch_rad, 0.3, 1e-6);
 }
 
 TEST(JoinedSource, ASensorThatEndedLeavesTheScansAlone) {

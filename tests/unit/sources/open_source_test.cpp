@@ -22,9 +22,9 @@ std::string refusal(std::string_view source, SourcePace pace = kUnpaced) {
 }
 
 TEST(OpenSource, ListsTheKindsWhenItKnowsNotTheOneAskedFor) {
-  EXPECT_EQ(refusal("ros2:/scan,/imu"),
-            "source 'ros2:/scan,/imu': unknown kind 'ros2'; there are: carmen, columns, rosbag2, "
-            "rplidar, sim");
+  EXPECT_EQ(refusal("ros3:/scan,/imu"),
+            "source 'ros3:/scan,/imu': unknown kind 'ros3'; there are: carmen, columns, ros2, "
+            "rosbag2, rplidar, sim");
   EXPECT_THAT(refusal("intel.log.gz"), HasSubstr("does not begin with a kind"));
 }
 
@@ -43,6 +43,15 @@ TEST(OpenSource, ALiveLidarHasItsOwnPaceOnly) {
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::not_found);
   EXPECT_THAT(opened.error().text, HasSubstr("/dev/lifeline_none: no such device"));
+}
+
+TEST(OpenSource, ARos2DriverHasItsOwnPaceAndBringsItsOwnAttitude) {
+  EXPECT_EQ(refusal("ros2:/scan?rate=x2"),
+            "source 'ros2:/scan?rate=x2': a live lidar has no rate but real");
+  const auto opened = open_source_with_attitude("ros2:/scan", "ahrs:/dev/none");
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::wrong_use);
+  EXPECT_THAT(opened.error().text, HasSubstr("takes its attitude by a topic: write ros2:/scan,"));
 }
 
 TEST(OpenSource, PlaysWithoutWaitingByDefault) {

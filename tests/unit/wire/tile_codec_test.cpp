@@ -103,8 +103,9 @@ TEST(TileCodec, RefusesAnotherEncodingVersion) {
 }
 
 TEST(TileCodec, RefusesWhatIsNoFrame) {
-  EXPECT_THAT(error_of(Octets{}), HasSubstr("not a zstd frame that states its size"));
-  EXPECT_THAT(error_of(Octets(100, 0x55)), HasSubstr("not a zstd frame that states its size"));
+  EXPECT_THAT(error_of(Octets{}), HasSubstr("encoding version 0"));
+  EXPECT_THAT(error_of(Octets(100, 0xFF)), HasSubstr("neither a zstd frame nor a TilePayload"));
+  EXPECT_THAT(error_of(Octets(100, 0x28)), HasSubstr("not a zstd frame that states its size"));
   EXPECT_THAT(error_of(Octets(kMaxTilePayload + 1, 0)), HasSubstr("payload of 8193 octets"));
 }
 

@@ -44,6 +44,43 @@ TEST(TileParts, JoinedInAnyOrderGiveThePayload) {
   EXPECT_EQ(parts.add(sample).value(), payload);
 }
 
+class TwoRevisions : public testing::Test {
+ protected:
+  std::optional<std::vector<std::uint8_t>> add(std::uint64_t revision, std::uint8_t part) {
+    TsdTile sample;
+    sample.revision = revision;
+    sample.parts = 2;
+    sample.part = part;
+    sample.payload = {static_cast<std::uint8_t>(revision), part};
+    return parts_.add(sample).value();
+  }
+  TileParts parts_;
+};
+
+TEST_F(TwoRevisions, AnOlderOneIsJoinedWhileTheRestOfTheNewestDoesNotCome) {
+  EXPECT_FALSE(add(3, 0));
+  EXPECT_FALSE(add(2, 0));
+  EXPECT_EQ(add(2, 1), (std::vector<std::uint8_t>{2, 0, 2, 1}));
+  EXPECT_EQ(add(3, 1), (std::vector<std::uint8_t>{3, 0, 3, 1}));
+  EXPECT_TRUE(parts_.empty());
+}
+
+TEST_F(TwoRevisions, TheNewestEndsTheOlderOne) {
+  EXPECT_FALSE(add(2, 0));
+  EXPECT_FALSE(add(3, 0));
+  EXPECT_TRUE(add(3, 1));
+  EXPECT_TRUE(parts_.empty());
+}
+
+TEST_F(TwoRevisions, OfThreeTheOldestOtherIsForgotten) {
+  EXPECT_FALSE(add(3, 0));
+  EXPECT_FALSE(add(4, 0));
+  EXPECT_FALSE(add(2, 0));  // instead of 3
+  EXPECT_TRUE(add(2, 1));
+  EXPECT_FALSE(add(3, 1));
+  EXPECT_TRUE(add(4, 1));
+}
+
 TEST(TileParts, APartThatIsTooLargeIsRefused) {
   TileParts parts;
   TsdTile sample;

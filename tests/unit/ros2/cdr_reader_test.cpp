@@ -1,11 +1,11 @@
-#include "agents/sources/cdr_reader.hpp"
+#include "common/ros2/cdr_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/recordings.hpp"
 
-namespace lifeline::sources {
+namespace lifeline::ros2 {
 namespace {
 
 using test::Encoding;
@@ -128,4 +128,4 @@ TEST(CdrReader, RefusesATextLongerThanItsBytes) {
 }
 
 }  // namespace
-}  // namespace lifeline::sources
+}  // namespace lifeline::ros2
