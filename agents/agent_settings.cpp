@@ -1,8 +1,7 @@
 #include "agents/agent_settings.hpp"
 
-#include <numbers>
-
 #include "agents/sources/source_spec.hpp"
+#include "common/base/angles.hpp"
 #include "common/files/load_config.hpp"
 #include "idl/config.pb.h"
 
@@ -17,7 +16,6 @@ std::optional<slam::Matcher> parse_matcher(const std::string& name) {
 }
 
 sensing::ProjectionConfig to_projection(const proto::SensingConfig& sensing, double max_range_m) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   sensing::ProjectionConfig projection;
   projection.max_range_m = max_range_m;
   projection.sensor_height_m = sensing.lidar_height_m();

@@ -19,7 +19,7 @@
 namespace lifeline {
 namespace {
 
-constexpr Duration kLoopWait = std::chrono::milliseconds(50);
+constexpr Duration kTableWait = std::chrono::milliseconds(50);
 constexpr int kPosesToALine = 10;
 
 struct Ears {
@@ -40,7 +40,7 @@ double wall_s(Timestamp time) {
   return to_seconds(time.time_since_epoch());
 }
 
-const char* describe(wire::RecordingState state) {
+const char* recording_word(wire::RecordingState state) {
   switch (state) {
     case wire::RecordingState::off:
       return "off";
@@ -116,7 +116,7 @@ class Watch {
         {"tiles_behind", status.tiles_behind},
         {"bytes_sent", status.bytes_sent},
         {"samples_refused", status.samples_refused},
-        {"recording", describe(status.recording)},
+        {"recording", recording_word(status.recording)},
         {"samples_unrecorded", status.samples_unrecorded},
         {"peers_heard", status.peers_heard}};
     print(line);
@@ -150,7 +150,7 @@ Result<void> run(const CoordinatorWatchOptions& options) {
   Watch watch(config->mission().mission_id(), *std::move(ears), options.json);
   while (!stop_requested() && !(options.time_limit_s && clock.steady_now() - started >
                                                             from_seconds(*options.time_limit_s))) {
-    (*participant)->wait_for_data(kLoopWait);
+    (*participant)->wait_for_data(kTableWait);
     watch.step(clock);
   }
   return {};

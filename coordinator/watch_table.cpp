@@ -13,7 +13,7 @@
 namespace lifeline {
 namespace {
 
-const char* word(wire::AgentState state) {
+const char* state_word(wire::AgentState state) {
   return state == wire::AgentState::lost ? "LOST ITS PLACE" : describe(state);
 }
 
@@ -46,8 +46,8 @@ std::string watch_table(const sharing::Roster& roster, SteadyTime now) {
     const auto& status = entry.status;
     const bool helmet = status.role == wire::Role::helmet;
     table += fmt::format("{:<20} {:<15} {:<22} {:>8} {:>8.0f} {:>6} {:<9} {:>7} {:>9}\n", id,
-                         helmet ? word(status.state) : "coordinator", age(entry, now), status.scans,
-                         status.explored_m2, status.epoch_applied, map_name(status),
+                         helmet ? state_word(status.state) : "coordinator", age(entry, now),
+                         status.scans, status.explored_m2, status.epoch_applied, map_name(status),
                          status.tiles_behind, status.samples_refused);
     if (status.recording == wire::RecordingState::failing) {
       table +=

@@ -1,14 +1,13 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "agents/ahrs/ahrs_decoder.hpp"
 #include "agents/ahrs/fields.hpp"
+#include "common/base/angles.hpp"
 
 namespace lifeline::ahrs {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kMostGroups = 12;  // that NorthTek can print in one line, about
 
 DecodedLine damaged(std::string_view why) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/angles.hpp"
+
 namespace lifeline::ahrs {
 namespace {
 
@@ -32,7 +34,6 @@ void RateCheck::add(const AhrsReading& reading, SteadyTime stamp) {
 }
 
 void RateCheck::judge() {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   // turn = ratio * integrated rate, by least squares; and how well that explains the turns.
   const double ratio = rate2_ > 0.0 ? both_ / rate2_ : 0.0;
   const double agreement = rate2_ > 0.0 ? both_ / std::sqrt(turn2_ * rate2_) : 0.0;

@@ -3,17 +3,16 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <span>
 
 #include "agents/ahrs/ahrs_decoder.hpp"
 #include "agents/ahrs/fields.hpp"
 #include "agents/sensing/rotation.hpp"
+#include "common/base/angles.hpp"
 
 namespace lifeline::ahrs {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kMostNumbers = 13;
 
 /// What the numbers of a sentence are; -1: it has none of that.

@@ -9,12 +9,12 @@
 namespace lifeline::slam {
 namespace {
 
-constexpr int kFull = FitField::kFull;
-constexpr int kFree = -4;
+constexpr int kFreeFit = -4;
 
 int fit_of(TsdCell cell) {
-  if (cell.tsd > TsdCell::kTsdOne * 95 / 100) return kFree;
-  return kFull - (kFull * std::abs(int{cell.tsd}) + TsdCell::kTsdOne / 2) / TsdCell::kTsdOne;
+  if (cell.tsd > TsdCell::kTsdOne * 95 / 100) return kFreeFit;
+  return FitField::kFull -
+         (FitField::kFull * std::abs(int{cell.tsd}) + TsdCell::kTsdOne / 2) / TsdCell::kTsdOne;
 }
 
 std::int32_t round_up(double cells, int multiple) {
@@ -22,12 +22,13 @@ std::int32_t round_up(double cells, int multiple) {
 }
 
 /// Blocks summed at once; a constant number, so that the compiler makes vectors of them.
-constexpr int kLanes16 = 16;
+constexpr int kBlocksAtOnce = 16;
 
 LIFELINE_ALSO_FOR_AVX2
 void add_blocks(const std::int8_t* from, std::int16_t* to, std::int32_t count) {
-  for (std::int32_t i = 0; i < count; i += kLanes16, from += kLanes16, to += kLanes16) {
-    for (int lane = 0; lane < kLanes16; ++lane) {
+  for (std::int32_t i = 0; i < count;
+       i += kBlocksAtOnce, from += kBlocksAtOnce, to += kBlocksAtOnce) {
+    for (int lane = 0; lane < kBlocksAtOnce; ++lane) {
       to[lane] = static_cast<std::int16_t>(to[lane] + from[lane]);
     }
   }
@@ -135,10 +136,10 @@ void FitField::build_phases() {
   const auto& top = fit_[kLevels - 1];
   const std::int32_t block_columns = columns_ / kBlock, block_rows = rows_ / kBlock;
   // Rows are summed in whole vectors, which may reach into the rim behind their ends.
-  block_stride_ = block_columns + kLanes16;
+  block_stride_ = block_columns + kBlocksAtOnce;
   const std::size_t blocks =
       static_cast<std::size_t>(block_stride_) * static_cast<std::size_t>(block_rows);
-  phases_.assign(blocks * kBlock * kBlock + kLanes16, 0);
+  phases_.assign(blocks * kBlock * kBlock + kBlocksAtOnce, 0);
   free_blocks_.assign(blocks, 0);
   for (int y = 0; y < kBlock; ++y) {
     for (int x = 0; x < kBlock; ++x) {
@@ -166,7 +167,7 @@ void FitField::build_phases() {
 void FitField::bound_blocks(std::span<const Place> offsets, std::vector<std::int16_t>& sums) const {
   const std::int32_t columns = columns_ / kBlock, rows = rows_ / kBlock;
   const std::size_t blocks = free_blocks_.size();
-  sums.assign(blocks + kLanes16, 0);
+  sums.assign(blocks + kBlocksAtOnce, 0);
   for (const Place& offset : offsets) {
     const int phase = (offset.row & (kBlock - 1)) * kBlock + (offset.column & (kBlock - 1));
     const std::int32_t right = offset.column >> (kLevels - 1), up = offset.row >> (kLevels - 1);

@@ -4,11 +4,7 @@
 #include <cmath>
 
 namespace lifeline::slam {
-namespace {
-
-constexpr int kFull = FitField::kFull;
-
-}  // namespace
+namespace {}  // namespace
 
 GlobalSearchResult GlobalSearch::search(std::span<const Eigen::Vector2d> points, double yaw_rad,
                                         double window_rad,
@@ -98,7 +94,8 @@ int GlobalSearch::score(int level, Place corner, int least) const {
       const Place cell{corner.column + offsets_[i].column, corner.row + offsets_[i].row};
       if (field_.contains(cell)) sum += field_.fit(level, cell);
     }
-    if (sum + kFull * static_cast<int>(offsets_.size() - i) < least) return sum - 1'000'000;
+    if (sum + FitField::kFull * static_cast<int>(offsets_.size() - i) < least)
+      return sum - 1'000'000;
   }
   return sum;
 }
@@ -130,7 +127,7 @@ void GlobalSearch::note(int score, Place place, double yaw_rad) {
   const Eigen::Vector2d at_m = field_.centre_of(place);
   const GlobalCandidate here{
       {at_m.x(), at_m.y(), normalise_angle(yaw_rad)},
-      static_cast<double>(score) / kFull / static_cast<double>(points_.size())};
+      static_cast<double>(score) / FitField::kFull / static_cast<double>(points_.size())};
   const auto same = std::find_if(found_.begin(), found_.end(), [&](const GlobalCandidate& other) {
     const Pose2 &a = here.T_map_head, &b = other.T_map_head;
     return (a.translation() - b.translation()).norm() < config_.apart_m &&
@@ -141,7 +138,7 @@ void GlobalSearch::note(int score, Place place, double yaw_rad) {
     return;
   }
   const double hopeless =
-      static_cast<double>(least_score()) / kFull / static_cast<double>(points_.size());
+      static_cast<double>(least_score()) / FitField::kFull / static_cast<double>(points_.size());
   std::erase_if(found_, [&](const GlobalCandidate& other) { return other.agreement < hopeless; });
   if (found_.size() < config_.max_candidates) {
     found_.push_back(here);
@@ -157,8 +154,8 @@ void GlobalSearch::note(int score, Place place, double yaw_rad) {
 int GlobalSearch::least_score() const {
   const double points = static_cast<double>(points_.size());
   const double min_agreement = circle_ ? circle_->min_agreement : config_.min_agreement;
-  return std::max(static_cast<int>(std::ceil(min_agreement * kFull * points)),
-                  best_ - static_cast<int>(config_.margin * kFull * points));
+  return std::max(static_cast<int>(std::ceil(min_agreement * FitField::kFull * points)),
+                  best_ - static_cast<int>(config_.margin * FitField::kFull * points));
 }
 
 }  // namespace lifeline::slam

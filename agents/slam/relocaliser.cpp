@@ -20,7 +20,7 @@ constexpr std::size_t kMinPoints = 40;
 constexpr int kNearAttempts = 3;
 /// A cell this near to a surface is a wall; one beyond the other is free.
 constexpr int kWall = TsdCell::kTsdOne * 35 / 100;
-constexpr int kFree = TsdCell::kTsdOne * 95 / 100;
+constexpr int kFreeTsd = TsdCell::kTsdOne * 95 / 100;
 
 bool is_wall(TsdCell cell) {
   return cell.known() && std::abs(int{cell.tsd}) <= kWall;
@@ -200,7 +200,7 @@ double Relocaliser::gone_share(const Pose2& T_map_head) const {
     for (int y = 0; y < kTileSide; y += 2) {
       for (int x = 0; x < kTileSide; x += 2) {
         const TsdCell now = cells[offset_in_tile({x, y})];
-        const bool free = now.known() && now.tsd > kFree;
+        const bool free = now.known() && now.tsd > kFreeTsd;
         if (!free && !is_wall(now)) continue;
         const Eigen::Vector2d p = seen.centre_of({first.x + x, first.y + y});
         if ((p - head).squaredNorm() > kCompared_m * kCompared_m) continue;

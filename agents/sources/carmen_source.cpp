@@ -28,7 +28,7 @@ struct CarmenOptions {
   double max_range_m = kDefaultMaxRange_m;
 };
 
-Result<CarmenOptions> read_options(const SourceSpec& spec) {
+Result<CarmenOptions> read_carmen_options(const SourceSpec& spec) {
   if (auto known = spec.allow_options({"from", "to", "prior", "seed", "max_range"}); !known) {
     return forward_error(known);
   }
@@ -135,7 +135,7 @@ class CarmenSource final : public sensing::ScanSource {
 }  // namespace
 
 Result<std::unique_ptr<sensing::ScanSource>> open_carmen_source(const SourceSpec& spec) {
-  auto options = read_options(spec);
+  auto options = read_carmen_options(spec);
   if (!options) return forward_error(options);
   auto reader = LineReader::open(spec.target);
   if (!reader) return forward_error(reader);

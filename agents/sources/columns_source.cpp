@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "agents/sources/line_reader.hpp"
 #include "agents/sources/scan_range.hpp"
+#include "common/base/angles.hpp"
 
 namespace lifeline::sources {
 namespace {
@@ -26,7 +26,7 @@ struct ColumnsOptions {
   double max_range_m = 4.0;
 };
 
-Result<ColumnsOptions> read_options(const SourceSpec& spec) {
+Result<ColumnsOptions> read_columns_options(const SourceSpec& spec) {
   constexpr std::int64_t kMostColumns = 20'000;
   if (auto known = spec.allow_options(
           {"from", "to", "time", "first", "beams", "mask", "fov", "min_range", "max_range"});
@@ -94,7 +94,6 @@ class ColumnsSource final : public sensing::ScanSource {
   }
 
   Result<RawScan> convert(std::string_view text) const {
-    constexpr double kDegree = std::numbers::pi / 180.0;
     RawScan scan;
     scan.angle_step_rad = options_.fov_deg / static_cast<double>(options_.beams) * kDegree;
     scan.first_angle_rad = -0.5 * options_.fov_deg * kDegree +
@@ -147,7 +146,7 @@ class ColumnsSource final : public sensing::ScanSource {
 }  // namespace
 
 Result<std::unique_ptr<sensing::ScanSource>> open_columns_source(const SourceSpec& spec) {
-  const auto options = read_options(spec);
+  const auto options = read_columns_options(spec);
   if (!options) return forward_error(options);
   auto reader = LineReader::open(spec.target);
   if (!reader) return forward_error(reader);

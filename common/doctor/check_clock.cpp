@@ -11,7 +11,7 @@ namespace lifeline::doctor {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string kCheck = "clock";
+const std::string kClockCheck = "clock";
 const std::string kWhere = "system clock";
 // Files of another machine, or written over the network, may be a little ahead.
 constexpr Duration kStepTolerance = std::chrono::seconds(2);
@@ -39,20 +39,21 @@ Finding judge_synchronisation(const ClockState& clock, bool one_machine_alone) {
       "sudo apt install chrony; without the internet, helmets take the vehicle's time (`local "
       "stratum 10` in its chrony.conf)";
   if (one_machine_alone && !(clock.is_known && clock.is_synchronised))
-    return ok(kCheck, kWhere, "not synchronised, which one machine alone does not need");
+    return ok(kClockCheck, kWhere, "not synchronised, which one machine alone does not need");
   if (!clock.is_known)
-    return warning(kCheck, kWhere, "the kernel does not say whether it is synchronised", advice);
-  if (!clock.is_synchronised) {
-    return warning(kCheck, kWhere, "not synchronised: times of several machines cannot be compared",
+    return warning(kClockCheck, kWhere, "the kernel does not say whether it is synchronised",
                    advice);
+  if (!clock.is_synchronised) {
+    return warning(kClockCheck, kWhere,
+                   "not synchronised: times of several machines cannot be compared", advice);
   }
   const double error_ms = 1e3 * to_seconds(clock.max_error);
   if (clock.max_error > kWorstError) {
-    return warning(kCheck, kWhere,
+    return warning(kClockCheck, kWhere,
                    fmt::format("synchronised, but off by up to {:.0f} ms", error_ms),
                    "wait for it to settle; `chronyc tracking` shows how far it is");
   }
-  return ok(kCheck, kWhere, fmt::format("synchronised, off by at most {:.1f} ms", error_ms));
+  return ok(kClockCheck, kWhere, fmt::format("synchronised, off by at most {:.1f} ms", error_ms));
 }
 
 }  // namespace
@@ -85,12 +86,12 @@ Findings check_clock(const ClockState& clock, const std::optional<Written>& newe
                      bool one_machine_alone) {
   Findings found{judge_synchronisation(clock, one_machine_alone)};
   if (newest && newest->at > clock.now + kStepTolerance) {
-    found.push_back(fault(kCheck, kWhere,
+    found.push_back(fault(kClockCheck, kWhere,
                           fmt::format("shows {}, but {} was written at {}: it was set back",
                                       utc(clock.now), newest->file.string(), utc(newest->at)),
                           "set it (sudo chronyc makestep, or sudo date --set) before the mission"));
   } else {
-    found.push_back(ok(kCheck, kWhere, fmt::format("shows {}, not set back", utc(clock.now))));
+    found.push_back(ok(kClockCheck, kWhere, fmt::format("shows {}, not set back", utc(clock.now))));
   }
   return found;
 }

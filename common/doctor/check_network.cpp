@@ -21,7 +21,7 @@ namespace lifeline::doctor {
 namespace {
 
 constexpr int kUdpHeaders = 28;  // IPv4 and UDP
-const std::string kCheck = "interface";
+const std::string kInterfaceCheck = "interface";
 
 int mtu_of(const std::string& name) {
   const int handle = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -60,26 +60,27 @@ Finding judge(const NetworkInterface& interface, const dds::ProfileFacts& profil
       fmt::format("{}, MTU {}", fmt::join(interface.addresses, " "), interface.mtu_octets);
   if (!interface.is_up) {
     return fault(
-        kCheck, interface.name, facts + ", but down or without a link",
+        kInterfaceCheck, interface.name, facts + ", but down or without a link",
         fmt::format("plug the cable in, join the radio network, or: sudo ip link set {} up",
                     interface.name));
   }
   if (profile.multicast_discovery && !interface.has_multicast && !interface.is_loopback) {
-    return fault(kCheck, interface.name, facts + ", without multicast, by which others are found",
+    return fault(kInterfaceCheck, interface.name,
+                 facts + ", without multicast, by which others are found",
                  fmt::format("sudo ip link set {} multicast on, or name the others' addresses in "
                              "initialPeersList of the QoS profiles",
                              interface.name));
   }
   const auto datagram = static_cast<int>(profile.max_message_octets) + kUdpHeaders;
   if (interface.mtu_octets > 0 && datagram > interface.mtu_octets) {
-    return warning(kCheck, interface.name,
+    return warning(kInterfaceCheck, interface.name,
                    fmt::format("{}, but datagrams of up to {} octets: one lost fragment loses all",
                                facts, datagram),
                    fmt::format("maxMessageSize {} in the QoS profiles of all machines, or a larger "
                                "MTU",
                                interface.mtu_octets - kUdpHeaders));
   }
-  return ok(kCheck, interface.name,
+  return ok(kInterfaceCheck, interface.name,
             fmt::format("up, {}{}", facts, interface.has_multicast ? ", multicast" : ""));
 }
 
@@ -91,7 +92,7 @@ Findings judge_named(const dds::ProfileFacts& profile,
         interfaces, [&](const auto& interface) { return is_named(interface, wanted); });
     found.push_back(at != interfaces.end()
                         ? judge(*at, profile)
-                        : fault(kCheck, wanted,
+                        : fault(kInterfaceCheck, wanted,
                                 "no interface of this machine has this address, which the QoS "
                                 "profiles keep to",
                                 "correct interfaceWhiteList in the QoS profiles; `ip address` "
@@ -154,7 +155,7 @@ Findings check_interfaces(const dds::ProfileFacts& profile,
     if (reaches_others && finding.level == Level::fault) finding.level = Level::warning;
   }
   if (found.empty()) {
-    found.push_back(fault(kCheck, "all",
+    found.push_back(fault(kInterfaceCheck, "all",
                           "none but loopback has an IPv4 address: no other machine "
                           "is reached",
                           "join the network, or take config/qos/loopback.xml for one machine "
@@ -167,8 +168,8 @@ Findings check_counted_interface(const std::string& name,
                                  const std::vector<NetworkInterface>& interfaces) {
   if (name == "none") return {};
   const auto at = std::ranges::find(interfaces, name, &NetworkInterface::name);
-  if (at != interfaces.end()) return {ok(kCheck, name, "its counter holds the budget")};
-  return {fault(kCheck, name,
+  if (at != interfaces.end()) return {ok(kInterfaceCheck, name, "its counter holds the budget")};
+  return {fault(kInterfaceCheck, name,
                 "sharing.interface names it, but no such interface has an address here",
                 "correct sharing.interface; `ip address` lists what there is")};
 }

@@ -12,7 +12,7 @@
 namespace lifeline::doctor {
 namespace {
 
-const std::string kCheck = "domain";
+const std::string kDomainCheck = "domain";
 
 Findings check_port_range(std::uint32_t domain, int last_port, const std::string& where,
                           const std::filesystem::path& root) {
@@ -21,7 +21,7 @@ Findings check_port_range(std::uint32_t domain, int last_port, const std::string
   if (!(std::ifstream(file) >> lowest >> highest)) return {};
   const int first_port = net::rtps_port_base(domain);
   if (last_port < lowest || first_port > highest) return {};
-  return {warning(kCheck, where,
+  return {warning(kDomainCheck, where,
                   fmt::format("its ports {} to {} lie among those that the kernel hands out ({} to "
                               "{}): another program may happen to hold one",
                               first_port, last_port, lowest, highest),
@@ -45,15 +45,15 @@ Findings check_domain(std::uint32_t domain, const dds::ProfileFacts& profile,
   Findings found = check_port_range(
       domain, net::rtps_unicast_ports(domain, places > 0 ? places - 1 : 0).second, where, root);
   if (taken >= places) {
-    found.push_back(fault(kCheck, where,
+    found.push_back(fault(kDomainCheck, where,
                           fmt::format("all {} places on this machine are taken", places),
                           "end programs that are not needed, or take another domain on all "
                           "machines"));
   } else if (taken == 0) {
-    found.push_back(ok(kCheck, where, "no other program of this machine is in it"));
+    found.push_back(ok(kDomainCheck, where, "no other program of this machine is in it"));
   } else {
     found.push_back(
-        ok(kCheck, where,
+        ok(kDomainCheck, where,
            fmt::format("{} other program{} of this machine in it, {} place{} left", taken,
                        taken == 1 ? "" : "s", places - taken, places - taken == 1 ? "" : "s")));
   }

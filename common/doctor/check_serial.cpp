@@ -17,7 +17,7 @@ namespace lifeline::doctor {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string kCheck = "serial";
+const std::string kSerialCheck = "serial";
 const std::string kJoinGroup =
     "add the user to group dialout (sudo usermod -aG dialout $USER) and log in again";
 
@@ -87,7 +87,7 @@ Findings check_serial_port(const std::string& device, int baud, const fs::path& 
   const auto port = serial::SerialPort::open(device, baud);
   const std::vector<UsbSerial> adapters = list_usb_serial(root);
   if (!port) {
-    Findings found = faults(kCheck, device, port.error());
+    Findings found = faults(kSerialCheck, device, port.error());
     if (port.error().code == ErrorCode::not_found)
       found.back().advice += "; " + what_is_there(adapters);
     return found;
@@ -95,7 +95,7 @@ Findings check_serial_port(const std::string& device, int baud, const fs::path& 
   std::error_code problem;
   const fs::path real = fs::canonical(device, problem);
   const auto adapter = std::ranges::find(adapters, real.string(), &UsbSerial::device);
-  return {ok(kCheck, device,
+  return {ok(kSerialCheck, device,
              fmt::format("opens at {} baud{}", baud,
                          adapter == adapters.end() ? "" : ", " + in_words(*adapter)))};
 }
@@ -105,8 +105,8 @@ Findings check_plugged_in(const fs::path& root) {
   for (const UsbSerial& adapter : list_usb_serial(root)) {
     const fs::path node = root / fs::path(adapter.device).relative_path();
     found.push_back(faccessat(AT_FDCWD, node.c_str(), R_OK | W_OK, AT_EACCESS) == 0
-                        ? ok(kCheck, adapter.device, in_words(adapter))
-                        : fault(kCheck, adapter.device,
+                        ? ok(kSerialCheck, adapter.device, in_words(adapter))
+                        : fault(kSerialCheck, adapter.device,
                                 in_words(adapter) + ", but this user may not open it", kJoinGroup));
   }
   return found;

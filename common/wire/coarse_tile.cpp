@@ -10,12 +10,12 @@
 namespace lifeline::wire {
 namespace {
 
-constexpr unsigned kTop = 5, kUnknown = 0;  // as symbols
+constexpr unsigned kTopSymbol = 5, kUnknownSymbol = 0;  // as symbols
 
 /// Numbers for contexts: `level` is 0 unknown, else 1 + the index in kCoarseLevels; `weight` 0
 /// unknown, 1 thin, 2 well seen.
 struct Symbol {
-  unsigned level = kUnknown, weight = 0;
+  unsigned level = kUnknownSymbol, weight = 0;
 };
 
 Symbol symbol_of(QuantisedCell cell) {
@@ -26,14 +26,14 @@ Symbol symbol_of(QuantisedCell cell) {
 }
 
 QuantisedCell cell_of(Symbol symbol) {
-  if (symbol.level == kUnknown) return {};
+  if (symbol.level == kUnknownSymbol) return {};
   return {static_cast<std::int8_t>(kCoarseLevels[symbol.level - 1]),
           static_cast<std::uint8_t>(symbol.weight == 1 ? kThin : kWellSeen)};
 }
 
 /// 0 unknown, 1 free, 2 in front of a surface, 3 behind it.
 unsigned side(Symbol s) {
-  return s.level == kUnknown ? 0 : s.level == kTop ? 1 : s.level >= 3 ? 2 : 3;
+  return s.level == kUnknownSymbol ? 0 : s.level == kTopSymbol ? 1 : s.level >= 3 ? 2 : 3;
 }
 
 /// Codes the symbols of a tile, row by row from below; the same steps write and read.
@@ -44,7 +44,7 @@ class CellCoder {
 
   Symbol code(int x, int y, Symbol symbol) {
     look_around(x, y);
-    if (!code_known(symbol.level != kUnknown)) return {};
+    if (!code_known(symbol.level != kUnknownSymbol)) return {};
     symbol.level = code_level(symbol.level);
     symbol.weight = code_weight(symbol) ? 2 : 1;
     at(x, y) = symbol;
@@ -70,7 +70,7 @@ class CellCoder {
   }
 
   bool code_known(bool known) {
-    const auto has = [](Symbol s) { return s.level != kUnknown ? 1U : 0U; };
+    const auto has = [](Symbol s) { return s.level != kUnknownSymbol ? 1U : 0U; };
     const unsigned all = has(l_) + 2 * has(b_) + 4 * has(bl_) + 8 * has(br_) + 16 * has(ll_) +
                          32 * has(bb_) + 64 * has(brr_);
     return code_bit<3>({&known_by_all_[all],
@@ -86,13 +86,13 @@ class CellCoder {
     }
     if (l_.level && b_.level) return (l_.level + b_.level) / 2;
     for (const Symbol s : {l_, b_, bl_, br_}) {
-      if (s.level != kUnknown) return s.level;
+      if (s.level != kUnknownSymbol) return s.level;
     }
-    return kTop;
+    return kTopSymbol;
   }
   [[nodiscard]] unsigned unrest() const {
     const auto apart = [](Symbol a, Symbol b) {
-      if (a.level == kUnknown || b.level == kUnknown) return 0U;
+      if (a.level == kUnknownSymbol || b.level == kUnknownSymbol) return 0U;
       return a.level > b.level ? a.level - b.level : b.level - a.level;
     };
     return std::min(7U, apart(l_, bl_) + apart(b_, bl_) + apart(b_, br_));
@@ -108,7 +108,7 @@ class CellCoder {
       for (std::size_t i = 0; i < 5; ++i) estimates[i] = &levels_[node][i][contexts[i]];
       return code_bit(estimates, bit);
     };
-    if (decide(0, level == kTop)) return kTop;
+    if (decide(0, level == kTopSymbol)) return kTopSymbol;
     if (decide(1, level < 3)) return decide(2, level == 2) ? 2 : 1;
     return decide(3, level == 3) ? 3 : 4;
   }

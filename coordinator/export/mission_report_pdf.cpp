@@ -122,7 +122,7 @@ class Pages {
   int page_ = 1;
 };
 
-std::string when(const MissionStory& story, Timestamp at) {
+std::string mission_time_at(const MissionStory& story, Timestamp at) {
   return mission_time(at - story.first);
 }
 
@@ -131,8 +131,8 @@ std::vector<Row> helmet_rows(const MissionStory& story) {
   for (const HelmetTrack& track : story.tracks) {
     const bool moved = !track.poses.empty();
     rows.push_back({track.name(), std::to_string(track.layer.floor.value),
-                    moved ? when(story, track.poses.front().stamp) : "-",
-                    moved ? when(story, track.poses.back().stamp) : "-",
+                    moved ? mission_time_at(story, track.poses.front().stamp) : "-",
+                    moved ? mission_time_at(story, track.poses.back().stamp) : "-",
                     fmt::format("{:.0f} m", track.walked_m()),
                     track.T_common_map ? "in the common map" : "apart"});
   }
@@ -156,8 +156,9 @@ std::vector<Row> find_rows(const MissionStory& story) {
 std::vector<Row> alert_rows(const MissionStory& story) {
   std::vector<Row> rows;
   for (const auto& [at, alert] : story.alerts) {
-    rows.push_back({when(story, at), to_string(alert.kind), to_string(alert.state), alert.issuer_id,
-                    alert.subject_id.empty() ? "everybody" : alert.subject_id, alert.text});
+    rows.push_back({mission_time_at(story, at), to_string(alert.kind), to_string(alert.state),
+                    alert.issuer_id, alert.subject_id.empty() ? "everybody" : alert.subject_id,
+                    alert.text});
   }
   return rows;
 }
@@ -165,7 +166,7 @@ std::vector<Row> alert_rows(const MissionStory& story) {
 std::vector<Row> merge_rows(const MissionStory& story) {
   std::vector<Row> rows;
   for (const auto& [at, evidence] : story.merges) {
-    rows.push_back({when(story, at), to_text(evidence.a), to_text(evidence.b),
+    rows.push_back({mission_time_at(story, at), to_text(evidence.a), to_text(evidence.b),
                     to_string(evidence.verdict), evidence.reason});
   }
   return rows;

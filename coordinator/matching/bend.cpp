@@ -21,8 +21,8 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 /// Wide at first: the ends of bent maps lie up to half a metre apart.
 constexpr std::array<float, 4> kSkeletonScales_m{0.35F, 0.25F, 0.18F, 0.12F};
 constexpr std::array<float, 3> kWallScales_m{0.08F, 0.05F, 0.05F};
-constexpr float kMinCosine = 0.8F;
-constexpr float kMaxAlong_m = 0.3F;
+constexpr float kMinSkeletonCosine = 0.8F;
+constexpr float kMaxAlongSkeleton_m = 0.3F;
 constexpr double kMinWall_m = 1.0;
 /// Neighbouring wall points err together, about half a metre of wall at once; both sides count it.
 constexpr double kCorrelation_m = 0.5;
@@ -64,8 +64,9 @@ struct Sums {
     const Eigen::Vector2f rigid = transform * from.p;
     const Eigen::Vector2f off = bent.bend(rigid, 1.0F) - onto.p;
     const Eigen::Vector2f normal_b = bent.turn(rigid, transform.turn(from.normal), 1.0F);
-    if (onto.normal.dot(normal_b) < kMinCosine) return;
-    if (std::abs(off.x() * onto.normal.y() - off.y() * onto.normal.x()) > kMaxAlong_m) return;
+    if (onto.normal.dot(normal_b) < kMinSkeletonCosine) return;
+    if (std::abs(off.x() * onto.normal.y() - off.y() * onto.normal.x()) > kMaxAlongSkeleton_m)
+      return;
     const Eigen::Vector2f normal = (onto.normal + normal_b).normalized();
     const float residual = normal.dot(off), ratio = residual / scale_m;
     const double weight =

@@ -16,10 +16,10 @@
 namespace lifeline::matching {
 namespace {
 
-constexpr std::size_t kRotationSeparation = 4 * kSpectrumBinsPerDegree;
+constexpr std::size_t kPeakSeparation = 4 * kSpectrumBinsPerDegree;
 constexpr std::size_t kShiftsPerAxis = 2;
 constexpr int kShiftSeparation = 10;  // cells
-constexpr std::size_t kReported = 6;
+constexpr std::size_t kReportedBySpectra = 6;
 
 double radians(double bins) {
   return bins * std::numbers::pi / (180.0 * static_cast<double>(kSpectrumBinsPerDegree));
@@ -76,7 +76,7 @@ MatchResult match_spectra(const MapFeatures& a, const MapFeatures& b, const Matc
                           (a.cell_size_m * a.cell_size_m);
   std::vector<Hypothesis> hypotheses;
   const std::size_t peaks = std::max<std::size_t>(1, config.rotation_candidates / 2);
-  for (const SpectrumPeak& peak : circular_maxima(correlation, kRotationSeparation, peaks)) {
+  for (const SpectrumPeak& peak : circular_maxima(correlation, kPeakSeparation, peaks)) {
     for (const double half_turn : {0.0, std::numbers::pi}) {
       add_translations(problem, radians(peak.bin) + half_turn, s0_cells, hypotheses);
     }
@@ -85,7 +85,7 @@ MatchResult match_spectra(const MapFeatures& a, const MapFeatures& b, const Matc
   const Eigen::Vector2d middle_b =
       0.5 * b.cell_size_m * Eigen::Vector2d(b.filtered.columns, b.filtered.rows);
   keep_distinct(hypotheses, middle_b);
-  keep_best(hypotheses, kReported);
+  keep_best(hypotheses, kReportedBySpectra);
   for (const Hypothesis& h : hypotheses) {
     const MeasuredCandidate measured = measure_candidate(a, b, h.T_a_b, config);
     if (result.candidates.empty()) {

@@ -13,46 +13,19 @@ add_compile_options(-ffp-contract=off)
 find_program(LIFELINE_CCACHE ccache)
 if(LIFELINE_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${LIFELINE_CCACHE}")
-  if(LIFELINE_PRECOMPILED_HEADERS)  # ccache's manual, "Precompiled headers"
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${LIFELINE_CCACHE}")
-    add_compile_options(-fpch-preprocess)
-  endif()
 endif()
 find_program(LIFELINE_MOLD mold)
 if(LIFELINE_MOLD)
   add_link_options(-fuse-ld=mold)
 endif()
 
-# With LIFELINE_PRECOMPILED_HEADERS, what most sources include is parsed once for each preset. It only saves time: a source
-# that forgets an include fails in the presets that build without.
-set(lifeline_common_headers
-  <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <optional> <random> <set>
-  <span> <sstream> <string> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
-function(lifeline_precompile target)
-  get_target_property(sources ${target} SOURCES)
-  if(NOT LIFELINE_PRECOMPILED_HEADERS OR sources MATCHES "\\.c(;|$)")
-    return()
+# Sources of a target in batches: headers are parsed, and what they inline is compiled, once a batch. A source that forgets
+# an include, or whose internal names clash with another's, shows only where it is compiled alone: `dev` does so for all
+# but tests.
+function(lifeline_batch target kind)
+  if(LIFELINE_BATCHES STREQUAL "all" OR (LIFELINE_BATCHES STREQUAL "tests" AND kind STREQUAL "test"))
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
-  cmake_parse_arguments(arg "FOR_TESTS" "" "" ${ARGN})
-  set(owner lifeline_precompiled)
-  if(arg_FOR_TESTS)
-    set(owner lifeline_precompiled_for_tests)
-  endif()
-  if(NOT TARGET ${owner})
-    set(empty "${PROJECT_BINARY_DIR}/generated/${owner}.cpp")
-    file(CONFIGURE OUTPUT "${empty}" CONTENT "// Carries the precompiled headers.\n")
-    add_library(${owner} STATIC "${empty}")
-    target_link_libraries(${owner} PRIVATE Eigen3::Eigen spdlog::spdlog)
-    set(headers ${lifeline_common_headers})
-    if(arg_FOR_TESTS)
-      target_link_libraries(${owner} PRIVATE GTest::gmock)
-      list(APPEND headers <gmock/gmock.h> <gtest/gtest.h>)
-    endif()
-    target_precompile_headers(${owner} PRIVATE ${headers})
-    lifeline_warnings(${owner})  # -Wpedantic changes a macro, and macros must be alike
-  endif()
-  target_link_libraries(${target} PRIVATE Eigen3::Eigen spdlog::spdlog)  # what the headers were compiled with
-  target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()
 
 function(lifeline_warnings target)
@@ -70,7 +43,7 @@ function(lifeline_library name)
   target_include_directories(lifeline_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(lifeline_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   lifeline_warnings(lifeline_${name})
-  lifeline_precompile(lifeline_${name})
+  lifeline_batch(lifeline_${name} library)
 endfunction()
 
 # lifeline_program(NAME SOURCES a.cpp ... LINK libs...): program NAME in build/<preset>/bin.
@@ -81,7 +54,7 @@ function(lifeline_program name)
   target_link_libraries(${name} PRIVATE ${arg_LINK})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
   lifeline_warnings(${name})
-  lifeline_precompile(${name})
+  lifeline_batch(${name} program)
 endfunction()
 
 function(lifeline_add_to_group group name)
@@ -113,7 +86,8 @@ function(lifeline_test name)
   target_compile_definitions(${name} PRIVATE
     LIFELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LIFELINE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   lifeline_warnings(${name})
-  lifeline_precompile(${name} FOR_TESTS)
+  lifeline_batch(${name} test)
+  target_compile_options(${name} PRIVATE ${LIFELINE_TEST_FLAGS})
   if(threads IN_LIST arg_LABELS)  # the ones that the thread sanitizer build is for
     lifeline_add_to_group(lifeline_thread_tests ${name})
   endif()

@@ -18,6 +18,10 @@
 
 namespace lifeline::test {
 
+/// Two heads in one building; to be followed by which.
+inline const std::string kWalk =
+    "sim:office?walkers=2&rate=x4&beams=400&seed=1&duration=60&walker=";
+
 /// Generous: a test waits so long only when it fails.
 inline constexpr Duration kLong = std::chrono::seconds(150);
 

@@ -14,7 +14,7 @@ constexpr double kNarrowestM = 0.6;
 constexpr double kWidestM = 1.3;
 constexpr double kStepAsideM = 0.8;  ///< from the middle of a doorway to where rooms have begun
 constexpr double kWidensM = 0.6;     ///< by which a room is wider than its doorway
-constexpr double kApartM = 1.0;
+constexpr double kDoorwaysApartM = 1.0;
 constexpr int kDirections = 8;  ///< of half a turn
 
 struct Passage {
@@ -71,7 +71,7 @@ std::vector<Doorway> find_doorways(const FloorPlan& plan, const FreeSpace& space
   std::vector<Doorway> doorways;
   for (const Passage& passage : passages) {
     const bool known = std::any_of(doorways.begin(), doorways.end(), [&](const Doorway& other) {
-      return (middle(other) - middle(passage.doorway)).norm() < kApartM;
+      return (middle(other) - middle(passage.doorway)).norm() < kDoorwaysApartM;
     });
     if (!known) doorways.push_back(passage.doorway);
   }

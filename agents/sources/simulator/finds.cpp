@@ -4,16 +4,16 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string_view>
+
+#include "common/base/angles.hpp"
 
 namespace lifeline::sources {
 namespace {
 
-constexpr double kApartM = 2.5;
+constexpr double kFindsApartM = 2.5;
 constexpr int kTries = 200;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::optional<double> read_number(std::string_view text) {
   double value = 0.0;
@@ -46,7 +46,9 @@ std::vector<Eigen::Vector2d> draw_places(const FreeSpace& space, int count,
   }
   std::vector<Eigen::Vector2d> places;
   const auto is_apart = [&](const Eigen::Vector2d& p) {
-    const auto far = [&](const Eigen::Vector2d& other) { return (other - p).norm() >= kApartM; };
+    const auto far = [&](const Eigen::Vector2d& other) {
+      return (other - p).norm() >= kFindsApartM;
+    };
     return std::all_of(places.begin(), places.end(), far) &&
            std::all_of(others.begin(), others.end(),
                        [&](const Find& other) { return far(other.p_world); });

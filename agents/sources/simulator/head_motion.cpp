@@ -3,11 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/angles.hpp"
+
 namespace lifeline::sources {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNoseDownRad = 2.0 * kDegree;  ///< people look at where they will tread
 
 }  // namespace

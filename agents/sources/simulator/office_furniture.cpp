@@ -5,14 +5,12 @@
 #include <numbers>
 #include <optional>
 
+#include "agents/sources/simulator/office_layout.hpp"
+
 namespace lifeline::sources {
 namespace {
 
 constexpr double kPassageM = 0.9;
-
-double to_centimetres(double value_m) {
-  return std::round(value_m * 100.0) / 100.0;
-}
 
 Box grown(const Box& box, double by_m) {
   const Eigen::Vector2d margin(by_m, by_m);

@@ -18,10 +18,6 @@ struct Span {
   [[nodiscard]] double length() const { return high - low; }
 };
 
-double to_centimetres(double value_m) {
-  return std::round(value_m * 100.0) / 100.0;
-}
-
 Box box_of(Span x, Span y) {
   return Box(Eigen::Vector2d(x.low, y.low), Eigen::Vector2d(x.high, y.high));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "agents/sources/simulator/draw.hpp"
@@ -20,6 +21,11 @@ struct OfficeLayout {
 inline constexpr double kOuterWallM = 0.20;
 inline constexpr double kCorridorWallM = 0.15;
 inline constexpr double kDoorwayM = 0.90;
+
+/// `value_m` in whole centimetres: what an office is built of.
+[[nodiscard]] inline double to_centimetres(double value_m) {
+  return std::round(value_m * 100.0) / 100.0;
+}
 
 /// Lays out corridors that run along x, with a jog from section to section, rooms of differing
 /// width on their sides, and cross corridors. `width_m` along x, `depth_m` along y, both at least

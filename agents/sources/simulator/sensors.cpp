@@ -5,11 +5,12 @@
 #include <limits>
 #include <numbers>
 
+#include "common/base/angles.hpp"
+
 namespace lifeline::sources {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 /// Glass: of 8 deg, and the share of echoes that come back through a pane.
 constexpr double kMirrorCosine = 0.990268;
 constexpr double kPassesShare = 6.0 / 7.0;

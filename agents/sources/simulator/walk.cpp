@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/base/angles.hpp"
 #include "common/base/check.hpp"
 
 namespace lifeline::sources {
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double kStepS = 0.01;
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 constexpr double kSpeedUpMs2 = 0.8;
 constexpr double kSlowDownMs2 = WalkLimits::kAccelerationMs2;
 constexpr double kBodyTurnRadS = 72.0 * kDegree;

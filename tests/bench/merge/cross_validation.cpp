@@ -10,7 +10,7 @@ namespace {
 
 using matching::AcceptanceLimits;
 
-struct Tally {
+struct FoldTally {
   std::size_t right = 0, wrong = 0;
 };
 
@@ -20,11 +20,11 @@ bool takes_part(const MergePair& pair, const std::string& building) {
 
 /// Verdicts under `limits`, from evidence that is there already.
 template <class Which>
-Tally judge_again(const std::vector<JudgedPair>& judged, const AcceptanceLimits& limits,
-                  const Which& which) {
+FoldTally judge_again(const std::vector<JudgedPair>& judged, const AcceptanceLimits& limits,
+                      const Which& which) {
   matching::MatchConfig config;
   config.limits = config.layer_limits = limits;
-  Tally tally;
+  FoldTally tally;
   for (const JudgedPair& pair : judged) {
     if (pair.pair->kind == "drift10_" || !which(*pair.pair)) continue;
     matching::MatchResult result = pair.result;
@@ -71,7 +71,7 @@ AcceptanceLimits learn(const std::vector<JudgedPair>& judged, const std::string&
   const AcceptanceLimits* best = nullptr;
   std::size_t most = 0;
   for (const AcceptanceLimits& limits : choices) {
-    const Tally tally = judge_again(
+    const FoldTally tally = judge_again(
         judged, limits, [&](const MergePair& pair) { return !takes_part(pair, left_out); });
     if (tally.wrong > 0) continue;
     if (best == nullptr || tally.right > most ||
@@ -104,7 +104,7 @@ std::vector<Fold> cross_validate(const std::vector<JudgedPair>& judged) {
   for (const std::string& building : buildings) {
     Fold fold{building, learn(judged, building, choices)};
     const auto own = [&](const MergePair& pair) { return takes_part(pair, building); };
-    const Tally tally = judge_again(judged, fold.limits, own);
+    const FoldTally tally = judge_again(judged, fold.limits, own);
     fold.right = tally.right;
     fold.wrong = tally.wrong;
     for (const JudgedPair& pair : judged) {

@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "agents/sources/simulator/draw.hpp"
 #include "agents/sources/simulator/office.hpp"
+#include "common/base/angles.hpp"
 #include "common/files/occupancy_image.hpp"
 #include "tests/bench/merge/csv_rows.hpp"
 #include "tests/support/simulated_maps.hpp"
 
 namespace lifeline::bench {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Result<matching::MapFeatures> load_features(const std::filesystem::path& yaml) {
   auto grid = files::read_occupancy_image(yaml);

@@ -26,7 +26,7 @@ using sources::FloorPlan;
 enum Kind : std::size_t { other_plan, mirror, apart, symmetric, repeated, kKinds };
 constexpr std::array<const char*, kKinds> kKindNames{
     "other plans", "mirrored plans", "apart on one floor", "symmetric floors", "repeated rooms"};
-constexpr double kRight_m = 0.5;
+constexpr double kRightNegative_m = 0.5;
 constexpr double kRight_rad = 2.0 * std::numbers::pi / 180.0;
 
 /// Maps of one floor. Floors of the same group are the same building, or its mirror image.
@@ -143,7 +143,7 @@ class Tally {
   static bool is_right(const matching::MatchResult& result, const Pose2& T_a_b) {
     const Pose2& found = result.candidates.front().T_a_b;
     const Eigen::Vector2d& p_b = result.overlap_centre_b_m;
-    return (found * p_b - T_a_b * p_b).norm() < kRight_m &&
+    return (found * p_b - T_a_b * p_b).norm() < kRightNegative_m &&
            std::abs(normalise_angle(found.yaw_rad - T_a_b.yaw_rad)) < kRight_rad;
   }
 

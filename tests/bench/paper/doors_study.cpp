@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "common/base/angles.hpp"
 #include "common/base/quantile.hpp"
 #include "common/files/trajectory_error.hpp"
 #include "tests/bench/paper/panels.hpp"
@@ -14,7 +14,6 @@
 namespace lifeline::bench {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kLostM = 0.5, kLostRad = 10.0 * kDegree;
 
 /// What the paper says of its figures; it gives no numbers.

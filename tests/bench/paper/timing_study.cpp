@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "common/base/angles.hpp"
 #include "common/base/quantile.hpp"
 #include "coordinator/matching/match_maps.hpp"
 #include "tests/bench/paper/panels.hpp"
@@ -17,7 +17,6 @@
 namespace lifeline::bench {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kEveryS = 5.0;
 constexpr double kRightM = 0.5, kRightRad = 2.0 * kDegree;
 constexpr std::array<double, 4> kBetas{0.28, 2.0, 5.0, 10.0};

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "agents/sources/simulator/draw.hpp"
+#include "common/base/angles.hpp"
 #include "common/base/quantile.hpp"
 #include "common/files/trajectory_error.hpp"
 #include "common/grid/occupancy_grid.hpp"
@@ -19,7 +20,6 @@
 namespace lifeline::bench {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSpoiltM = 0.25, kSpoiltRad = 3.0 * kDegree;
 constexpr std::array<double, 3> kWeights{1.0, 0.95, 0.5};
 

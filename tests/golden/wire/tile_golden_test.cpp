@@ -16,6 +16,7 @@
 #include "common/base/sha256.hpp"
 #include "common/wire/coarse_cells.hpp"
 #include "common/wire/tile_codec.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace lifeline::wire {
@@ -24,8 +25,6 @@ namespace {
 using Octets = std::vector<std::uint8_t>;
 
 constexpr int kOne = QuantisedCell::kTsdOne, kMost = QuantisedCell::kMaxWeight;
-const GridGeometry kGeometry{.cell_size_m = 0.05, .truncation_m = 0.15};
-
 /// A corner of two walls seen from inside, in integers: the same on every machine.
 QuantisedTile corner_tile() {
   QuantisedTile tile{};

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "agents/sources/attitude_track.hpp"
+#include "common/base/angles.hpp"
 #include "common/base/steady_stamp.hpp"
 #include "tests/support/ahrs/ahrs_emulator.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -24,8 +24,6 @@ using std::chrono::milliseconds;
 using test::AhrsEmulator;
 using test::AhrsEmulatorOptions;
 using test::AhrsKind;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 SteadyTime now() {
   return std::chrono::steady_clock::now();

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "agents/sources/open_source.hpp"
+#include "common/base/angles.hpp"
 #include "common/base/steady_stamp.hpp"
 #include "tests/support/ahrs/ahrs_emulator.hpp"
 #include "tests/support/rplidar/emulator.hpp"
@@ -19,8 +20,6 @@ namespace {
 using sensing::AttitudeHealth;
 using sensing::RawScan;
 using std::chrono::milliseconds;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 /// Nods by 25 deg and rolls by 10.
 sensing::Attitude nodding(double t_s) {

@@ -56,7 +56,7 @@ TYPED_TEST(Channels, carry_a_message_to_others_and_not_to_oneself) {
   ASSERT_TRUE(out) << out.error().text;
   ASSERT_TRUE(own) << own.error().text;
   ASSERT_TRUE(in) << in.error().text;
-  const auto message = testing::filled<TypeParam>();
+  const auto message = test::filled<TypeParam>();
   // Topics that keep nothing for late joiners reach only readers that are matched already.
   std::vector<TypeParam> got;
   ASSERT_TRUE(eventually([&] {
@@ -65,7 +65,7 @@ TYPED_TEST(Channels, carry_a_message_to_others_and_not_to_oneself) {
     return !got.empty();
   }));
 
-  EXPECT_TRUE(testing::same(got.front(), message));
+  EXPECT_TRUE(test::same(got.front(), message));
   EXPECT_TRUE((*own)->take().empty());
   EXPECT_EQ((*in)->refused(), 0U);
   EXPECT_TRUE((*out)->has_reader());

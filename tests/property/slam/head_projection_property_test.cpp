@@ -8,12 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "agents/sensing/head_projection.hpp"
+#include "common/base/angles.hpp"
 
 namespace lifeline::sensing {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 
 struct Vec {
   double x, y, z;

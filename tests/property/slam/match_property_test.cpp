@@ -5,6 +5,7 @@
 
 #include "agents/slam/map_tracker.hpp"
 #include "common/grid/tsd_update.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
 
 namespace lifeline::slam {
@@ -12,8 +13,6 @@ namespace {
 
 using support::scan_of;
 using support::small_flat;
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
 
 /// Mean squared robust error of a scan at a pose, straight from the field: what align() minimises.
 double slow_cost(const TsdView& view, std::span<const SurfacePiece> pieces, const Pose2& T) {

@@ -6,6 +6,7 @@
 
 #include "common/grid/cell_lanes.hpp"
 #include "common/grid/tsd_update.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
 
 namespace lifeline {
@@ -13,8 +14,6 @@ namespace {
 
 using support::scan_of;
 using support::small_flat;
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
 
 TEST(CellLanes, RoundAsOneNumberAlone) {
   std::mt19937 random(31);

@@ -6,6 +6,7 @@
 
 #include "common/grid/ray_cast.hpp"
 #include "common/grid/tsd_update.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
 
 namespace lifeline {
@@ -13,8 +14,6 @@ namespace {
 
 using support::FlatWorld;
 using support::scan_of;
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
 
 /// A room with some random furniture; always the same for the same seed.
 FlatWorld random_world(std::mt19937& random) {

@@ -8,6 +8,7 @@
 #include "agents/slam/fit_field.hpp"
 #include "common/grid/tsd_update.hpp"
 #include "common/grid/tsd_view.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
 
 namespace lifeline::slam {
@@ -15,8 +16,6 @@ namespace {
 
 using support::scan_of;
 using support::small_flat;
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
 
 class SearchProperty : public ::testing::TestWithParam<unsigned> {
  protected:

@@ -10,6 +10,7 @@
 #include "common/wire/limits.hpp"
 #include "common/wire/tile_codec.hpp"
 #include "common/wire/tile_planes.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/tiles.hpp"
 
 namespace lifeline::wire {
@@ -18,8 +19,6 @@ namespace {
 using Octets = std::vector<std::uint8_t>;
 
 constexpr int kOne = QuantisedCell::kTsdOne;
-const GridGeometry kGeometry{.cell_size_m = 0.05, .truncation_m = 0.15};
-
 bool is_valid(const QuantisedTile& tile) {
   return std::all_of(tile.begin(), tile.end(), [](QuantisedCell cell) {
     return cell.weight <= QuantisedCell::kMaxWeight && cell.tsd >= -QuantisedCell::kTsdOne &&

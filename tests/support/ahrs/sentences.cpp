@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "common/base/angles.hpp"
+
 namespace lifeline::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 double wrapped_deg(double angle_deg) {
   return std::remainder(angle_deg, 360.0);

@@ -10,8 +10,6 @@
 namespace lifeline::test {
 namespace {
 
-const std::string kWalk = "sim:office?walkers=2&rate=x4&beams=400&seed=1&duration=60&walker=";
-
 class CoordinatorRestart : public KilledFleet {
  protected:
   /// One that ends once both helmets hold the same as itself.

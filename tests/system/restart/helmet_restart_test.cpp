@@ -14,8 +14,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-const std::string kWalk = "sim:office?walkers=2&rate=x4&beams=400&seed=1&duration=60&walker=";
-
 /// Distances of a helmet's whole trajectory, its map beginning where the walk begins, to the truth.
 std::vector<double> errors_m(const std::string& source, const std::string& tum) {
   auto scans = sources::open_source(source + "&rate=max").value();

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,7 @@
 
 #include "agents/ahrs/ahrs_decoder.hpp"
 #include "agents/ahrs/line_receiver.hpp"
+#include "common/base/angles.hpp"
 #include "tests/support/ahrs/sentences.hpp"
 
 namespace lifeline::ahrs {
@@ -18,11 +18,10 @@ namespace {
 using test::Checksum;
 using test::with_checksum;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-const VectorNavDecoder kDecoder;
+const VectorNavDecoder kVectorNav;
 
 DecodedLine decode(std::string_view body) {
-  return kDecoder.decode(with_checksum(body, Checksum::exclusive_or));
+  return kVectorNav.decode(with_checksum(body, Checksum::exclusive_or));
 }
 
 /// Where the body's x axis points, and its z axis: our axes.
@@ -31,7 +30,7 @@ Eigen::Vector3d forward(const AhrsReading& reading) {
 }
 
 TEST(VectorNavDecoder, ReadsASentenceThatASensorSent) {
-  const auto decoded = kDecoder.decode(
+  const auto decoded = kVectorNav.decode(
       "$VNYMR,-132.410,-000.766,-000.587,+00.1850,+00.0403,+00.1417,+00.324,-00.406,-09.681,"
       "-00.007393,-00.001693,-00.249232*60");
   ASSERT_EQ(decoded.kind, LineKind::reading);
@@ -72,18 +71,18 @@ TEST(VectorNavDecoder, EverySentenceWithAnAttitudeSaysTheSame) {
 
 TEST(VectorNavDecoder, TakesEitherChecksumAndAppendedStatusAndCounter) {
   const char* const body = "VNYPR,+010.071,+000.278,-002.026";
-  EXPECT_EQ(kDecoder.decode(with_checksum(body, Checksum::crc16)).kind, LineKind::reading);
+  EXPECT_EQ(kVectorNav.decode(with_checksum(body, Checksum::crc16)).kind, LineKind::reading);
   // The manual's examples.
   for (const char* line :
        {"$VNYPR,+010.071,+000.278,-002.026*60", "$VNYPR,+010.071,+000.278,-002.026,T1162704*2F",
         "$VNYPR,+010.071,+000.278,-002.026,S0000*1F"}) {
-    EXPECT_EQ(kDecoder.decode(line).kind, LineKind::reading) << line;
+    EXPECT_EQ(kVectorNav.decode(line).kind, LineKind::reading) << line;
   }
 }
 
 TEST(VectorNavDecoder, ADamagedSentenceIsNamed) {
   const auto why = [](std::string_view line) {
-    const auto decoded = kDecoder.decode(line);
+    const auto decoded = kVectorNav.decode(line);
     EXPECT_EQ(decoded.kind, LineKind::damaged) << line;
     return decoded.why;
   };

@@ -17,18 +17,18 @@ using Messages =
 TYPED_TEST_SUITE(CdrSamples, Messages);
 
 TYPED_TEST(CdrSamples, every_field_comes_back) {
-  auto message = testing::filled<TypeParam>();
+  auto message = test::filled<TypeParam>();
   message.envelope.signature.clear();
   const auto octets = to_cdr(message);
   ASSERT_TRUE(octets) << octets.error().text;
   EXPECT_EQ((*octets)[1], 1) << "little-endian, as it travels";
   const auto back = from_cdr<TypeParam>(*octets);
   ASSERT_TRUE(back) << back.error().text;
-  EXPECT_TRUE(testing::same(*back, message));
+  EXPECT_TRUE(test::same(*back, message));
 }
 
 TYPED_TEST(CdrSamples, what_is_cut_short_or_too_long_is_refused) {
-  auto message = testing::filled<TypeParam>();
+  auto message = test::filled<TypeParam>();
   message.envelope.signature.clear();
   const auto octets = to_cdr(message).value();
   for (std::size_t size = 0; size + 4 < octets.size(); ++size) {

@@ -19,27 +19,27 @@ using Messages =
 TYPED_TEST_SUITE(Convert, Messages);
 
 TYPED_TEST(Convert, every_field_comes_back) {
-  const auto message = testing::filled<TypeParam>();
-  ASSERT_TRUE(testing::all_differ(message, TypeParam()));
+  const auto message = test::filled<TypeParam>();
+  ASSERT_TRUE(test::all_differ(message, TypeParam()));
   typename TypeSupportOf<TypeParam>::Idl sample;
 
   ASSERT_TRUE(to_idl(message, sample));
 
-  EXPECT_TRUE(testing::same(from_idl(sample), message));
+  EXPECT_TRUE(test::same(from_idl(sample), message));
 }
 
 TYPED_TEST(Convert, a_reused_sample_keeps_nothing_of_the_last_message) {
   typename TypeSupportOf<TypeParam>::Idl sample;
-  ASSERT_TRUE(to_idl(testing::filled<TypeParam>(), sample));
+  ASSERT_TRUE(to_idl(test::filled<TypeParam>(), sample));
 
   ASSERT_TRUE(to_idl(TypeParam(), sample));
 
-  EXPECT_TRUE(testing::same(from_idl(sample), TypeParam()));
+  EXPECT_TRUE(test::same(from_idl(sample), TypeParam()));
 }
 
 TYPED_TEST(Convert, every_field_survives_the_wire) {
   TypeSupportOf<TypeParam> type;
-  const auto message = testing::filled<TypeParam>();
+  const auto message = test::filled<TypeParam>();
   SampleOf<TypeParam> sent, received;
   ASSERT_TRUE(to_idl(message, sent.value));
   rtps::SerializedPayload_t payload(type.m_typeSize);
@@ -48,12 +48,12 @@ TYPED_TEST(Convert, every_field_survives_the_wire) {
   ASSERT_TRUE(type.deserialize(&payload, &received));
 
   EXPECT_TRUE(received.decodable);
-  EXPECT_TRUE(testing::same(from_idl(received.value), message));
+  EXPECT_TRUE(test::same(from_idl(received.value), message));
 }
 
 TEST(TileOctets, count_what_the_middleware_writes) {
   for (const std::size_t size : {1U, 9U, 10U, 11U, 12U, 500U, 1000U}) {
-    auto message = testing::filled<wire::TsdTile>();
+    auto message = test::filled<wire::TsdTile>();
     message.payload.assign(size, 7);
     message.layer.agent_id.resize(1 + size % 7, 'x');
     TypeSupportOf<wire::TsdTile> type;

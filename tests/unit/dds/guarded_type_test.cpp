@@ -56,7 +56,7 @@ TYPED_TEST(GuardedTypeOf, announces_no_type_objects) {
 }
 
 TYPED_TEST(GuardedTypeOf, a_truncated_sample_is_not_decodable) {
-  const auto octets = this->encode(testing::filled<TypeParam>());
+  const auto octets = this->encode(test::filled<TypeParam>());
   for (std::size_t size = 0; size < octets.size(); ++size) {
     const auto sample = this->decode(Octets(octets.begin(), octets.begin() + long(size)));
     ASSERT_FALSE(sample.decodable) << size << " of " << octets.size() << " octets";
@@ -64,14 +64,14 @@ TYPED_TEST(GuardedTypeOf, a_truncated_sample_is_not_decodable) {
 }
 
 TYPED_TEST(GuardedTypeOf, a_sample_with_octets_left_over_is_not_decodable) {
-  auto octets = this->encode(testing::filled<TypeParam>());
+  auto octets = this->encode(test::filled<TypeParam>());
   octets.insert(octets.end(), 4, 0);
 
   EXPECT_FALSE(this->decode(octets).decodable);
 }
 
 TYPED_TEST(GuardedTypeOf, damaged_samples_neither_throw_nor_exceed_what_came_in) {
-  const auto octets = this->encode(testing::filled<TypeParam>());
+  const auto octets = this->encode(test::filled<TypeParam>());
   std::mt19937 random(20240229);
   std::size_t decodable = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -123,7 +123,7 @@ TEST_F(GuardedPose, keys_follow_the_key_field_alone) {
     EXPECT_TRUE(type_.getKey(&sample, &handle, false));
     return handle;
   };
-  auto pose = testing::filled<wire::HelmetPose>();
+  auto pose = test::filled<wire::HelmetPose>();
   const auto before = key_of(pose);
   pose.map_id += 1;
   EXPECT_EQ(key_of(pose), before);

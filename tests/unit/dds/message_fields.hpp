@@ -15,7 +15,7 @@
 
 #include "common/wire/messages.hpp"
 
-namespace lifeline::testing {
+namespace lifeline::test {
 
 // clang-format off
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, Pose2> {
@@ -159,4 +159,4 @@ bool all_differ(const T& a, const T& b) {
   }
 }
 
-}  // namespace lifeline::testing
+}  // namespace lifeline::test

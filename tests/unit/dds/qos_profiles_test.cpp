@@ -14,7 +14,7 @@
 namespace lifeline::dds {
 namespace {
 
-const std::filesystem::path kShipped = LIFELINE_SOURCE_DIR "/config/qos";
+const std::filesystem::path kShippedProfiles = LIFELINE_SOURCE_DIR "/config/qos";
 
 std::string read(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -37,7 +37,7 @@ class QosProfiles : public ::testing::Test {
   /// loopback.xml with the first `from` after `after` replaced by `to`.
   void write_changed(const std::string& after, const std::string& from,
                      const std::string& to) const {
-    auto text = read(kShipped / "loopback.xml");
+    auto text = read(kShippedProfiles / "loopback.xml");
     const auto start = text.find(after);
     ASSERT_NE(start, std::string::npos);
     const auto at = text.find(from, start);
@@ -79,29 +79,29 @@ Result<void> load(const std::filesystem::path& file) {
 }
 
 TEST_F(QosProfiles, the_shipped_files_load) {
-  for (const auto& entry : std::filesystem::directory_iterator(kShipped)) {
+  for (const auto& entry : std::filesystem::directory_iterator(kShippedProfiles)) {
     const auto loaded = load(entry.path());
     EXPECT_TRUE(loaded) << loaded.error().text;
   }
 }
 
 TEST_F(QosProfiles, a_file_for_ros2_is_none_for_a_mission) {
-  EXPECT_EQ(
-      refusal_of(kShipped / "ros2.xml"),
-      (kShipped / "ros2.xml").string() + ": participant profile 'lifeline_participant' is missing");
+  EXPECT_EQ(refusal_of(kShippedProfiles / "ros2.xml"),
+            (kShippedProfiles / "ros2.xml").string() +
+                ": participant profile 'lifeline_participant' is missing");
 }
 
 TEST_F(QosProfiles, a_participant_starts_on_loopback_xml) {
-  EXPECT_EQ(refusal_of(kShipped / "loopback.xml"), "");
+  EXPECT_EQ(refusal_of(kShippedProfiles / "loopback.xml"), "");
 }
 
 TEST_F(QosProfiles, files_follow_each_other_in_one_process) {
-  EXPECT_TRUE(load(kShipped / "loopback.xml"));
-  EXPECT_TRUE(load(kShipped / "wifi.xml"));
+  EXPECT_TRUE(load(kShippedProfiles / "loopback.xml"));
+  EXPECT_TRUE(load(kShippedProfiles / "wifi.xml"));
   write("<dds>");
   EXPECT_FALSE(load(file_));
-  EXPECT_TRUE(load(kShipped / "loopback.xml"));
-  EXPECT_TRUE(load(kShipped / "loopback.xml"));
+  EXPECT_TRUE(load(kShippedProfiles / "loopback.xml"));
+  EXPECT_TRUE(load(kShippedProfiles / "loopback.xml"));
 }
 
 TEST_F(QosProfiles, a_missing_file_is_named) {
@@ -124,7 +124,7 @@ TEST_F(QosProfiles, an_empty_file_is_refused) {
 }
 
 TEST_F(QosProfiles, a_truncated_file_is_refused) {
-  const auto whole = read(kShipped / "loopback.xml");
+  const auto whole = read(kShippedProfiles / "loopback.xml");
   for (const double share : {0.1, 0.5, 0.9, 0.999}) {
     write(whole.substr(0, static_cast<std::size_t>(static_cast<double>(whole.size()) * share)));
     EXPECT_THAT(reason(), ::testing::MatchesRegex(":[0-9]+: malformed XML .*")) << share;
@@ -177,7 +177,7 @@ TEST_F(QosProfiles, a_profile_name_used_twice_is_refused) {
 
 TEST_F(QosProfiles, a_domain_that_does_not_exist_is_wrong_use) {
   const auto participant = Participant::create(
-      {.domain_id = 233, .qos_profiles = kShipped / "loopback.xml", .name = ""});
+      {.domain_id = 233, .qos_profiles = kShippedProfiles / "loopback.xml", .name = ""});
   ASSERT_FALSE(participant);
   EXPECT_EQ(participant.error().code, ErrorCode::wrong_use);
   EXPECT_EQ(participant.error().text, "domain 233 does not exist; DDS has domains 0 to 232");

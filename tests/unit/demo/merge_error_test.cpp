@@ -1,13 +1,11 @@
 #include "deploy/demo/merge_error.hpp"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
+
+#include "common/base/angles.hpp"
 
 namespace lifeline::demo {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TEST(MergeError, is_nothing_for_the_truth_itself) {
   const Pose2 T_a_b{1.0, 2.0, 3.0};

@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/base/angles.hpp"
 #include "common/files/tum.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -133,7 +134,6 @@ TEST(TrajectoryError, AgreesWithTheIndependentEvaluator) {
             6)
       << output.data();
 
-  constexpr double kDegree = 180.0 / 3.14159265358979;
   EXPECT_EQ(ours->poses, poses);
   EXPECT_EQ(ours->lost, lost);
   EXPECT_NEAR(ours->rmse_m, rmse_m, 1e-6);

@@ -30,7 +30,7 @@ constexpr std::chrono::milliseconds kMoment(20);
 constexpr std::size_t kNoRoom = 4000;  ///< less than a page
 constexpr Duration kRest = std::chrono::milliseconds(300);
 
-store::StateIdentity identity() {
+store::StateIdentity killed_identity() {
   return {"helmet", "alpha", kMission, kGrid, 7};
 }
 
@@ -79,7 +79,8 @@ class PipeOutbox final : public wire::Outbox<wire::TsdTile> {
   wire::LoopbackBus bus;
   store::RecordStoreConfig records;
   records.give_up_after = std::chrono::hours(1);  // a busy machine's disk is slow, not broken
-  auto storage = HelmetStorage::open(folder, identity(), Floor{0}, {}, clock, records).value();
+  auto storage =
+      HelmetStorage::open(folder, killed_identity(), Floor{0}, {}, clock, records).value();
   const LayerKey layer{AgentId::parse("alpha").value(), MapId{1}, Floor{0}};
   storage->begin(layer);
   sharing::HelmetChannels channels = helmet_channels(bus);
@@ -165,14 +166,14 @@ class KilledHelmet : public testing::Test {
   /// So many short lives in a row would be taken for the state's fault.
   void prove() {
     const SystemClock clock;
-    (void)HelmetStorage::open(folder_.path(), identity(), Floor{0}, {}, clock).value();
+    (void)HelmetStorage::open(folder_.path(), killed_identity(), Floor{0}, {}, clock).value();
   }
 
   /// A start in good order, too.
   [[nodiscard]] std::uint64_t largest_kept_revision() const {
     const SystemClock clock;
     const auto storage =
-        HelmetStorage::open(folder_.path(), identity(), Floor{0}, {}, clock).value();
+        HelmetStorage::open(folder_.path(), killed_identity(), Floor{0}, {}, clock).value();
     std::uint64_t largest = 0;
     for (const auto& [tile, kept] : storage->memory().sharing.layers.begin()->second) {
       largest = std::max(largest, kept.revision.value);
@@ -183,10 +184,11 @@ class KilledHelmet : public testing::Test {
   /// All that left is known to the state, and the layer is no older.
   void check_state() {
     const SystemClock clock;
-    auto opened = store::open_state(folder_.path(), identity(), {}, clock.wall_now());
+    auto opened = store::open_state(folder_.path(), killed_identity(), {}, clock.wall_now());
     ASSERT_TRUE(opened && *opened);
-    const auto memory = read_helmet_memory(
-        (*opened)->records, {(*opened)->start_number, (*opened)->opened_at}, identity(), Floor{0});
+    const auto memory =
+        read_helmet_memory((*opened)->records, {(*opened)->start_number, (*opened)->opened_at},
+                           killed_identity(), Floor{0});
     ASSERT_TRUE(memory) << memory.error().text;
     ASSERT_EQ(memory->map, MapId{1});
     ASSERT_TRUE(memory->mapper || newest_.empty());

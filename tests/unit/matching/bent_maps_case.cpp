@@ -1,18 +1,16 @@
 // Maps of helmets whose heading drifts: they cannot be joined by one rigid transform.
 
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "agents/sources/simulator/office.hpp"
+#include "common/base/angles.hpp"
 #include "coordinator/matching/match_maps.hpp"
 #include "tests/support/simulated_maps.hpp"
 
 namespace lifeline::matching {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 class BentMapsTest : public testing::TestWithParam<std::uint64_t> {
  protected:

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/angles.hpp"
 #include "tests/support/drawn_building.hpp"
 
 namespace lifeline::matching {
@@ -13,8 +14,6 @@ namespace {
 
 using test::draw_map;
 using test::uneven_building;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 MapFeatures features(const OccupancyGrid& grid) {
   return build_features(grid).value();

@@ -18,7 +18,7 @@ using test::FrameMaker;
 
 constexpr int kBaud = 1'000'000;  // 10 us a byte
 constexpr Duration kByte = microseconds(10);
-const SteadyTime kStart(std::chrono::seconds(1000));
+const SteadyTime kFirstSample(std::chrono::seconds(1000));
 
 /// Every distance another one, so that none can be mistaken.
 test::World counting() {
@@ -55,7 +55,7 @@ TEST_P(EveryFormat, decodes_every_sample_as_it_was_sent) {
   const auto frames = frames_of(mode, 500);
   SampleDecoder decoder(type, mode.us_per_sample(), kBaud);
   std::vector<Sample> samples;
-  for (const EmulatedFrame& frame : frames) decoder.push(frame.bytes, kStart, samples);
+  for (const EmulatedFrame& frame : frames) decoder.push(frame.bytes, kFirstSample, samples);
   auto sent = test::sent_samples(frames);
   if (type == AnswerType::standard_nodes) {  // the first is not believed, the last wait
     sent.erase(sent.begin());
@@ -73,11 +73,11 @@ TEST_P(EveryFormat, decodes_alike_however_the_bytes_are_cut) {
     bytes.insert(bytes.end(), frame.bytes.begin(), frame.bytes.end());
   }
   std::vector<Sample> whole, cut;
-  SampleDecoder(type, mode.us_per_sample(), kBaud).push(bytes, kStart, whole);
+  SampleDecoder(type, mode.us_per_sample(), kBaud).push(bytes, kFirstSample, whole);
   SampleDecoder decoder(type, mode.us_per_sample(), kBaud);
   for (std::size_t at = 0; at < bytes.size(); at += 7) {
-    decoder.push(Bytes(bytes).subspan(at, std::min<std::size_t>(7, bytes.size() - at)), kStart,
-                 cut);
+    decoder.push(Bytes(bytes).subspan(at, std::min<std::size_t>(7, bytes.size() - at)),
+                 kFirstSample, cut);
   }
   ASSERT_EQ(whole.size(), cut.size());
   ASSERT_FALSE(whole.empty());
@@ -94,12 +94,12 @@ TEST(SampleDecoder, stamps_each_sample_with_the_time_it_was_taken) {
   for (const EmulatedFrame& frame : frames_of(mode, 20)) {
     const Duration last_taken = from_seconds(frame.last_sample_s);
     const Duration sent = last_taken + from_seconds(1.5 * 62.5e-6);
-    decoder.push(frame.bytes, kStart + sent + 84 * kByte, samples);
+    decoder.push(frame.bytes, kFirstSample + sent + 84 * kByte, samples);
   }
   ASSERT_EQ(samples.size(), 19U * 40U);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Duration taken = from_seconds(62.5e-6 * static_cast<double>(i));
-    ASSERT_LT(std::chrono::abs(samples[i].taken - kStart - taken), microseconds(1)) << i;
+    ASSERT_LT(std::chrono::abs(samples[i].taken - kFirstSample - taken), microseconds(1)) << i;
   }
 }
 
@@ -109,10 +109,10 @@ TEST(SampleDecoder, bytes_read_in_one_go_came_one_after_the_other) {
   std::vector<std::uint8_t> bytes = frames[0].bytes;
   bytes.insert(bytes.end(), frames[1].bytes.begin(), frames[1].bytes.end());
   std::vector<Sample> samples;
-  SampleDecoder(AnswerType::dense_capsules, 62.5, kBaud).push(bytes, kStart, samples);
+  SampleDecoder(AnswerType::dense_capsules, 62.5, kBaud).push(bytes, kFirstSample, samples);
   ASSERT_EQ(samples.size(), 40U);
   const Duration ago = 84 * kByte + 84 * kByte + from_seconds(1.5 * 62.5e-6);
-  EXPECT_LT(std::chrono::abs(samples[39].taken - (kStart - ago)), microseconds(1));
+  EXPECT_LT(std::chrono::abs(samples[39].taken - (kFirstSample - ago)), microseconds(1));
 }
 
 TEST(SampleDecoder, a_late_read_hardly_moves_the_times) {
@@ -122,7 +122,7 @@ TEST(SampleDecoder, a_late_read_hardly_moves_the_times) {
   int index = 0;
   for (const EmulatedFrame& frame : frames_of(mode, 400)) {
     const Duration late = milliseconds(index++ % 10 == 5 ? 20 : 0);
-    decoder.push(frame.bytes, kStart + from_seconds(frame.last_sample_s) + late, samples);
+    decoder.push(frame.bytes, kFirstSample + from_seconds(frame.last_sample_s) + late, samples);
   }
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const Duration step = samples[i].taken - samples[i - 1].taken;
@@ -132,7 +132,7 @@ TEST(SampleDecoder, a_late_read_hardly_moves_the_times) {
 
 TEST(FrameClock, follows_a_pace_that_is_not_quite_the_stated_one) {
   FrameClock clock(microseconds(2500));
-  SteadyTime read = kStart, told{};
+  SteadyTime read = kFirstSample, told{};
   for (int i = 0; i < 4000; ++i) {
     told = clock.next(read, i > 0);
     read += microseconds(2510);  // 0.4 % slower than stated
@@ -142,9 +142,9 @@ TEST(FrameClock, follows_a_pace_that_is_not_quite_the_stated_one) {
 
 TEST(FrameClock, begins_anew_behind_a_gap) {
   FrameClock clock(microseconds(2500));
-  EXPECT_EQ(clock.next(kStart, false), kStart);
-  EXPECT_EQ(clock.next(kStart + milliseconds(50), false), kStart + milliseconds(50));
-  EXPECT_EQ(clock.next(kStart + milliseconds(500), true), kStart + milliseconds(500));
+  EXPECT_EQ(clock.next(kFirstSample, false), kFirstSample);
+  EXPECT_EQ(clock.next(kFirstSample + milliseconds(50), false), kFirstSample + milliseconds(50));
+  EXPECT_EQ(clock.next(kFirstSample + milliseconds(500), true), kFirstSample + milliseconds(500));
 }
 
 TEST(SampleDecoder, a_frame_that_the_device_left_out_is_not_bridged) {
@@ -152,7 +152,7 @@ TEST(SampleDecoder, a_frame_that_the_device_left_out_is_not_bridged) {
   frames.erase(frames.begin() + 15);
   SampleDecoder decoder(AnswerType::dense_capsules, 62.5, kBaud);
   std::vector<Sample> samples;
-  for (const EmulatedFrame& frame : frames) decoder.push(frame.bytes, kStart, samples);
+  for (const EmulatedFrame& frame : frames) decoder.push(frame.bytes, kFirstSample, samples);
   // The one before the gap has no end: it is lost as well.
   ASSERT_EQ(samples.size(), 27U * 40U);
   EXPECT_EQ(samples[14 * 40].reading.distance_quarters, frames[15].quarters[0]);
@@ -166,7 +166,7 @@ TEST(SampleDecoder, garbage_gives_nothing_and_is_counted) {
   for (auto& byte : garbage) byte = static_cast<std::uint8_t>(random());
   SampleDecoder decoder(AnswerType::dense_capsules, 62.5, kBaud);
   std::vector<Sample> samples;
-  decoder.push(garbage, kStart, samples);
+  decoder.push(garbage, kFirstSample, samples);
   EXPECT_TRUE(samples.empty());
   EXPECT_EQ(decoder.counts().bytes, 100'000U);
   EXPECT_GT(decoder.counts().skipped, 99'000U);

@@ -1,11 +1,11 @@
 #include "agents/rplidar/sweep_assembler.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <gmock/gmock.h>
 
 #include "agents/sensing/head_projection.hpp"
+#include "common/base/angles.hpp"
 #include "tests/support/rplidar/frame_maker.hpp"
 
 namespace lifeline::rplidar {
@@ -15,8 +15,7 @@ using sensing::RawScan;
 using test::EmulatedMode;
 using test::FrameMaker;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-const SteadyTime kStart(std::chrono::seconds(1000));
+const SteadyTime kFirstTurn(std::chrono::seconds(1000));
 
 struct Case {
   std::uint8_t type;
@@ -39,7 +38,8 @@ std::vector<RawScan> sweeps_of(const Case& c, const test::World& world, double s
     const auto frame = maker.next();
     t_s = frame.last_sample_s;
     samples.clear();
-    decoder.push(frame.bytes, kStart + from_seconds(t_s + 1.5e-6 * mode.us_per_sample()), samples);
+    decoder.push(frame.bytes, kFirstTurn + from_seconds(t_s + 1.5e-6 * mode.us_per_sample()),
+                 samples);
     for (const Sample& sample : samples) {
       if (auto sweep = assembler.add(sample)) sweeps.push_back(*std::move(sweep));
     }
@@ -141,7 +141,7 @@ TEST(SweepAssembler, stamps_are_of_the_first_beam_and_sweeps_last_a_turn) {
     for (std::size_t i = 1; i < 9; ++i) {
       const double start_s =
           1e-9 * static_cast<double>(
-                     (sweeps[i].stamp.time_since_epoch() - kStart.time_since_epoch()).count());
+                     (sweeps[i].stamp.time_since_epoch() - kFirstTurn.time_since_epoch()).count());
       EXPECT_NEAR(start_s, 0.1 * static_cast<double>(i) + behind_s, 2.5e-4) << i;
       EXPECT_NEAR(to_seconds(sweeps[i].sweep_time), 0.1, 3e-4);
     }
@@ -157,7 +157,7 @@ TEST(SweepAssembler, a_sweep_with_a_hole_has_beams_without_reading_there) {
     if (i >= 400 && i < 600) continue;
     Sample sample;
     sample.reading = reading_of(i);
-    sample.taken = kStart + std::chrono::nanoseconds(62'500) * i;
+    sample.taken = kFirstTurn + std::chrono::nanoseconds(62'500) * i;
     sample.after_gap = i == 600;
     scan = assembler.add(sample);
   }
@@ -177,7 +177,7 @@ TEST(SweepAssembler, a_turn_with_too_long_a_gap_is_given_up) {
     if (i >= 400 && i < 1900) continue;  // nearly a turn: what follows looks like going back
     Sample sample;
     sample.reading = reading_of(i);
-    sample.taken = kStart + std::chrono::nanoseconds(62'500) * i;
+    sample.taken = kFirstTurn + std::chrono::nanoseconds(62'500) * i;
     sample.after_gap = i == 1900;
     if (auto scan = assembler.add(sample)) sweeps.push_back(*scan);
   }
@@ -190,7 +190,8 @@ TEST(SweepAssembler, a_rotor_that_stands_gives_no_sweep_and_takes_no_memory) {
   settings.us_per_sample = 62.5;
   SweepAssembler assembler(settings);
   for (int i = 0; i < 200'000; ++i) {
-    ASSERT_FALSE(assembler.add({{1 << 16, 0, 8000}, kStart + std::chrono::microseconds(i), false}));
+    ASSERT_FALSE(
+        assembler.add({{1 << 16, 0, 8000}, kFirstTurn + std::chrono::microseconds(i), false}));
   }
   EXPECT_EQ(assembler.turns(), 0U);
 }

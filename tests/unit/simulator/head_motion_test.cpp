@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "agents/sources/simulator/office.hpp"
 #include "agents/sources/simulator/walk.hpp"
+#include "common/base/angles.hpp"
 
 namespace lifeline::sources {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TEST(HeadMotion, KeepsItsLimits) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

@@ -8,13 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/angles.hpp"
 #include "tests/unit/simulator/simulated_plans.hpp"
 
 namespace lifeline::sources {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 
 const FloorPlan& square() {
   static const FloorPlan plan = support::room(10.0, 10.0);

@@ -1,10 +1,9 @@
 #include "agents/agent_settings.hpp"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 #include "agents/sources/simulator/sensors.hpp"
+#include "common/base/angles.hpp"
 #include "idl/config.pb.h"
 #include "tests/support/temporary_folder.hpp"
 
@@ -32,7 +31,6 @@ TEST(AgentSettings, TakesHeightsAndMountFromTheFile) {
       "sensing: {lidar_height_m: 1.9, ceiling_height_m: 3.5, height_margin_m: 0.2, "
       "tilt_margin_deg: 1.5, mount_roll_deg: 3, mount_pitch_deg: -6, mount_yaw_deg: 90, "
       "lever_x_m: 0.1, lever_y_m: -0.05, lever_z_m: 0.3}");
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const auto projection = to_settings(read_agent_config(file, {}).value()).projection;
   EXPECT_DOUBLE_EQ(projection.sensor_height_m, 1.9);
   EXPECT_DOUBLE_EQ(projection.ceiling_height_m, 3.5);

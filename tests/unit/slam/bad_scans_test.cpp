@@ -11,7 +11,6 @@
 namespace lifeline {
 namespace {
 
-using slam::kGeometry;
 using slam::kTenthSecond;
 using Spoil = std::function<void(sensing::RawScan&)>;
 

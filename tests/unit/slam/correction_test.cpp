@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "agents/slam/tsd_slam.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
 
 namespace lifeline::slam {
@@ -9,8 +10,6 @@ namespace {
 
 using support::scan_of;
 using support::small_flat;
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
 
 /// One keyframe: the first scan.
 TsdSlam begun(const SlamConfig& config = {}) {

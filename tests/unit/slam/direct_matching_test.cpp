@@ -7,7 +7,9 @@
 #include "agents/slam/direct_matcher.hpp"
 #include "agents/slam/map_tracker.hpp"
 #include "common/grid/tsd_update.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
+#include "tests/support/poses.hpp"
 
 namespace lifeline::slam {
 namespace {
@@ -15,15 +17,6 @@ namespace {
 using support::FlatWorld;
 using support::scan_of;
 using support::small_flat;
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
-
-double apart_m(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm();
-}
-double apart_rad(const Pose2& a, const Pose2& b) {
-  return std::abs(normalise_angle(a.yaw_rad - b.yaw_rad));
-}
 
 /// A map of `world`, seen from `poses`.
 WorkingMap map_of(const FlatWorld& world, const std::vector<Pose2>& poses) {

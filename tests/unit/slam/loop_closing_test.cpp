@@ -10,16 +10,12 @@
 #include "agents/slam/packed_surface.hpp"
 #include "agents/slam/pose_graph.hpp"
 #include "agents/slam/story.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
+#include "tests/support/poses.hpp"
 
 namespace lifeline::slam {
 namespace {
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
-
-double apart_m(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm();
-}
 
 std::vector<SurfacePiece> surfaces(const support::FlatWorld& world, const Pose2& pose) {
   return extract_surface(support::scan_of(world, pose));

@@ -11,6 +11,7 @@
 #include "agents/slam/point_grid.hpp"
 #include "agents/slam/ransac_matcher.hpp"
 #include "tests/support/flat_world.hpp"
+#include "tests/support/poses.hpp"
 
 namespace lifeline::slam {
 namespace {
@@ -26,13 +27,6 @@ PointSet in_world(const Pose2& T_world_head) {
   for (auto& p : set.points) p = T_world_head * p;
   for (auto& n : set.normals) n = turn * n;
   return set;
-}
-
-double apart_m(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm();
-}
-double apart_rad(const Pose2& a, const Pose2& b) {
-  return std::abs(normalise_angle(a.yaw_rad - b.yaw_rad));
 }
 
 TEST(PointGrid, FindsWhatAFullSearchFinds) {

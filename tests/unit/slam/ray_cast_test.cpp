@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/grid/tsd_update.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
 
 namespace lifeline {
@@ -12,8 +13,6 @@ namespace {
 
 using support::FlatWorld;
 using support::scan_of;
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
 
 /// Cells of x in [x0, x1), for all |y| < 2 m, hold the distance to a wall at `wall_x` seen from
 /// below.

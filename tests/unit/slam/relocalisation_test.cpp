@@ -9,12 +9,6 @@
 namespace lifeline::slam {
 namespace {
 
-/// The wing's layer, made by walking through all of it.
-TsdGrid map_of(Walk& walk) {
-  for (int k = 0; k < walk.way.scans(); ++k) (void)walk.step(k);
-  return copy_of(walk.slam.layer());
-}
-
 /// A head that goes on in a map made before.
 Walk resumed(const support::FlatWorld& world, const Way& way, TsdGrid layer) {
   Walk walk(world, way);

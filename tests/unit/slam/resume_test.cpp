@@ -9,11 +9,6 @@
 namespace lifeline::slam {
 namespace {
 
-TsdGrid map_of(Walk& walk) {
-  for (int k = 0; k < walk.way.scans(); ++k) (void)walk.step(k);
-  return copy_of(walk.slam.layer());
-}
-
 /// Too long ago for a search round it.
 LastPlace last(const Pose2& T_map_head) {
   return {T_map_head, std::chrono::seconds(5)};

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "agents/sensing/head_projection.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
+#include "tests/support/poses.hpp"
 
 namespace lifeline::slam {
 namespace {
@@ -17,12 +19,7 @@ using support::FlatWorld;
 using support::scan_of;
 using support::small_flat;
 
-constexpr GridGeometry kGeometry{0.05, 0.15};
 constexpr Duration kTenthSecond = std::chrono::milliseconds(100);
-
-double apart_m(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm();
-}
 
 /// A walk through the small flat: T_world_head of scan k.
 Pose2 walk(int k) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "agents/slam/tsd_slam.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
 
 namespace lifeline::slam {
@@ -63,8 +64,6 @@ inline Way through_the_wing() {
 }
 
 inline constexpr Duration kTenthSecond = std::chrono::milliseconds(100);
-inline constexpr GridGeometry kGeometry{0.05, 0.15};
-
 /// A head on its way through a world, and the SLAM that it carries.
 class Walk {
  public:
@@ -121,6 +120,12 @@ inline bool same_cells(const TsdGrid& a, const TsdGrid& b) {
     if (*a.find(tile) != *b.find(tile)) return false;
   }
   return true;
+}
+
+/// The layer that comes of walking all of `walk`.
+inline TsdGrid map_of(Walk& walk) {
+  for (int k = 0; k < walk.way.scans(); ++k) (void)walk.step(k);
+  return copy_of(walk.slam.layer());
 }
 
 }  // namespace lifeline::slam

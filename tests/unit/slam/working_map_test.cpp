@@ -5,12 +5,11 @@
 #include "agents/slam/direct_matcher.hpp"
 #include "common/grid/ray_cast.hpp"
 #include "common/grid/tsd_update.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/flat_world.hpp"
 
 namespace lifeline::slam {
 namespace {
-
-constexpr GridGeometry kGeometry{0.05, 0.15};
 
 TsdCell cell(double tsd, int weight) {
   return {static_cast<std::int16_t>(tsd * TsdCell::kTsdOne), static_cast<std::uint16_t>(weight)};

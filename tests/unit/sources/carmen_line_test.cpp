@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/base/angles.hpp"
 #include "tests/support/recordings.hpp"
 
 namespace lifeline::sources {
@@ -14,9 +15,7 @@ using ::testing::Each;
 using ::testing::FloatEq;
 using ::testing::StartsWith;
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-
-std::string refusal(const std::string& line) {
+std::string line_refusal(const std::string& line) {
   const auto scan = parse_flaser(line);
   return scan ? "accepted" : scan.error().text;
 }
@@ -38,9 +37,9 @@ TEST(BeamFan, SpansHalfATurnFromTheRightForEveryKnownCount) {
        {Expected{180, 89.0}, {181, 90.0}, {360, 89.5}, {361, 90.0}}) {
     const auto fan = beam_fan(beams);
     ASSERT_TRUE(fan);
-    EXPECT_NEAR(fan->first_angle_rad * kDegPerRad, -90.0, 1e-12);
+    EXPECT_NEAR(fan->first_angle_rad / kDegree, -90.0, 1e-12);
     const double last = fan->first_angle_rad + static_cast<double>(beams - 1) * fan->angle_step_rad;
-    EXPECT_NEAR(last * kDegPerRad, last_deg, 1e-9) << beams;
+    EXPECT_NEAR(last / kDegree, last_deg, 1e-9) << beams;
   }
 }
 
@@ -82,39 +81,39 @@ TEST(ParseFlaser, TakesTabsCarriageReturnsAndRepeatedBlanks) {
 }
 
 TEST(ParseFlaser, NamesARangeThatIsNone) {
-  EXPECT_EQ(refusal(with_field(9, "nan")), "beam 7: range nan is not a usable number");
-  EXPECT_EQ(refusal(with_field(2, "inf")), "beam 0: range inf is not a usable number");
-  EXPECT_EQ(refusal(with_field(3, "1e30")), "beam 1: range 1e30 is not a usable number");
-  EXPECT_EQ(refusal(with_field(4, "-0.5")), "beam 2: range -0.5 is negative");
-  EXPECT_EQ(refusal(with_field(5, "1.2.3")), "beam 3: range '1.2.3' is not a number");
-  EXPECT_EQ(refusal(with_field(6, "1e99999")), "beam 4: range '1e99999' is not a number");
+  EXPECT_EQ(line_refusal(with_field(9, "nan")), "beam 7: range nan is not a usable number");
+  EXPECT_EQ(line_refusal(with_field(2, "inf")), "beam 0: range inf is not a usable number");
+  EXPECT_EQ(line_refusal(with_field(3, "1e30")), "beam 1: range 1e30 is not a usable number");
+  EXPECT_EQ(line_refusal(with_field(4, "-0.5")), "beam 2: range -0.5 is negative");
+  EXPECT_EQ(line_refusal(with_field(5, "1.2.3")), "beam 3: range '1.2.3' is not a number");
+  EXPECT_EQ(line_refusal(with_field(6, "1e99999")), "beam 4: range '1e99999' is not a number");
 }
 
 TEST(ParseFlaser, NamesAPoseOrTimeThatIsNone) {
-  EXPECT_EQ(refusal(with_field(182, "x")), "x 'x' is not a number");
-  EXPECT_EQ(refusal(with_field(184, "nan")), "theta nan is not a usable number");
-  EXPECT_EQ(refusal(with_field(187, "-inf")), "odom_theta -inf is not a usable number");
-  EXPECT_EQ(refusal(with_field(188, "noon")), "time 'noon' is not a time in seconds");
+  EXPECT_EQ(line_refusal(with_field(182, "x")), "x 'x' is not a number");
+  EXPECT_EQ(line_refusal(with_field(184, "nan")), "theta nan is not a usable number");
+  EXPECT_EQ(line_refusal(with_field(187, "-inf")), "odom_theta -inf is not a usable number");
+  EXPECT_EQ(line_refusal(with_field(188, "noon")), "time 'noon' is not a time in seconds");
 }
 
 TEST(ParseFlaser, QuotesOnlyTheBeginningOfGarbage) {
-  EXPECT_EQ(refusal(with_field(182, std::string(5000, 'z'))),
+  EXPECT_EQ(line_refusal(with_field(182, std::string(5000, 'z'))),
             "x '" + std::string(20, 'z') + "' is not a number");
 }
 
 TEST(ParseFlaser, NamesAWrongBeamCount) {
-  EXPECT_EQ(refusal(test::flaser_line(90, 1, "5.5")),
+  EXPECT_EQ(line_refusal(test::flaser_line(90, 1, "5.5")),
             "90 beams: only FLASER lines of 180, 181, 360 or 361 are known");
-  EXPECT_EQ(refusal(with_field(1, "many")), "FLASER beam count 'many' is not a number");
-  EXPECT_EQ(refusal(with_field(1, "-180")), "FLASER beam count '-180' is not a number");
-  EXPECT_EQ(refusal("FLASER"), "FLASER beam count '' is not a number");
-  EXPECT_THAT(refusal(with_field(1, "4294967295")), StartsWith("4294967295 beams: only"));
+  EXPECT_EQ(line_refusal(with_field(1, "many")), "FLASER beam count 'many' is not a number");
+  EXPECT_EQ(line_refusal(with_field(1, "-180")), "FLASER beam count '-180' is not a number");
+  EXPECT_EQ(line_refusal("FLASER"), "FLASER beam count '' is not a number");
+  EXPECT_THAT(line_refusal(with_field(1, "4294967295")), StartsWith("4294967295 beams: only"));
 }
 
 TEST(ParseFlaser, NamesTooFewAndTooManyFields) {
-  EXPECT_EQ(refusal(with_field(1, "181")),
+  EXPECT_EQ(line_refusal(with_field(1, "181")),
             "FLASER with 181 beams needs 192 fields and has 191: the line is cut off");
-  EXPECT_EQ(refusal(with_field(1, "180 1.0")),
+  EXPECT_EQ(line_refusal(with_field(1, "180 1.0")),
             "FLASER with 180 beams needs 191 fields and has 192: the line is of some other format");
 }
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/base/angles.hpp"
 #include "tests/support/recordings.hpp"
 
 namespace lifeline::test {
@@ -12,7 +13,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = M_PI / 180.0;
 /// Time in column 1, four beams from column 3.
 constexpr const char* kOptions = "?time=1&first=3&beams=4&fov=240&mask=1&max_range=4";
 

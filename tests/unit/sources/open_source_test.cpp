@@ -14,7 +14,7 @@ using test::carmen_log;
 using test::RecordingFolder;
 using ::testing::HasSubstr;
 
-std::string refusal(std::string_view source, SourcePace pace = kUnpaced) {
+std::string opening_refusal(std::string_view source, SourcePace pace = kUnpaced) {
   const auto opened = open_source(source, pace);
   if (opened) return "opened";
   EXPECT_EQ(opened.error().code, ErrorCode::wrong_use);
@@ -22,22 +22,22 @@ std::string refusal(std::string_view source, SourcePace pace = kUnpaced) {
 }
 
 TEST(OpenSource, ListsTheKindsWhenItKnowsNotTheOneAskedFor) {
-  EXPECT_EQ(refusal("ros3:/scan,/imu"),
+  EXPECT_EQ(opening_refusal("ros3:/scan,/imu"),
             "source 'ros3:/scan,/imu': unknown kind 'ros3'; there are: carmen, columns, ros2, "
             "rosbag2, rplidar, sim");
-  EXPECT_THAT(refusal("intel.log.gz"), HasSubstr("does not begin with a kind"));
+  EXPECT_THAT(opening_refusal("intel.log.gz"), HasSubstr("does not begin with a kind"));
 }
 
 TEST(OpenSource, ReadsTheRateForEveryKind) {
   const RecordingFolder folder;
   const std::string path = folder.write("a.log", carmen_log(180, 2));
-  EXPECT_THAT(refusal("carmen:" + path + "?rate=fast"), HasSubstr("rate=fast is none of"));
-  EXPECT_THAT(refusal("rosbag2:" + path + "?rate=fast"), HasSubstr("rate=fast is none of"));
+  EXPECT_THAT(opening_refusal("carmen:" + path + "?rate=fast"), HasSubstr("rate=fast is none of"));
+  EXPECT_THAT(opening_refusal("rosbag2:" + path + "?rate=fast"), HasSubstr("rate=fast is none of"));
   EXPECT_TRUE(open_source("carmen:" + path + "?rate=x2"));
 }
 
 TEST(OpenSource, ALiveLidarHasItsOwnPaceOnly) {
-  EXPECT_EQ(refusal("rplidar:/dev/none?rate=max"),
+  EXPECT_EQ(opening_refusal("rplidar:/dev/none?rate=max"),
             "source 'rplidar:/dev/none?rate=max': a live lidar has no rate but real");
   const auto opened = open_source("rplidar:/dev/lifeline_none?rate=real");
   ASSERT_FALSE(opened);
@@ -46,7 +46,7 @@ TEST(OpenSource, ALiveLidarHasItsOwnPaceOnly) {
 }
 
 TEST(OpenSource, ARos2DriverHasItsOwnPaceAndBringsItsOwnAttitude) {
-  EXPECT_EQ(refusal("ros2:/scan?rate=x2"),
+  EXPECT_EQ(opening_refusal("ros2:/scan?rate=x2"),
             "source 'ros2:/scan?rate=x2': a live lidar has no rate but real");
   const auto opened = open_source_with_attitude("ros2:/scan", "ahrs:/dev/none");
   ASSERT_FALSE(opened);

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/angles.hpp"
+
 namespace lifeline::sources {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 TEST(PortableNoise, HasTheMomentsOfANormalDistribution) {
   PortableNoise noise(7);
@@ -47,7 +47,7 @@ TEST(PortableNoise, IsTheSameBitsForTheSameSeed) {
 TEST(NoisyYaw, IsHalfADegreeAroundASlowWalk) {
   NoisyYaw yaw(3);
   std::vector<double> errors_deg;
-  for (int i = 0; i < 20'000; ++i) errors_deg.push_back(yaw.measure(0.0) * kDegPerRad);
+  for (int i = 0; i < 20'000; ++i) errors_deg.push_back(yaw.measure(0.0) / kDegree);
   double squares = 0.0;  // of the step from scan to scan: two white errors and one of the walk
   for (std::size_t i = 1; i < errors_deg.size(); ++i) {
     squares += std::pow(errors_deg[i] - errors_deg[i - 1], 2);
@@ -62,7 +62,7 @@ TEST(NoisyYaw, WalksAwayAsTheRootOfTheNumberOfScans) {
   for (int walk = 0; walk < kWalks; ++walk) {
     NoisyYaw yaw(static_cast<std::uint64_t>(walk));
     double last = 0.0;
-    for (int i = 0; i < kScans; ++i) last = yaw.measure(0.0) * kDegPerRad;
+    for (int i = 0; i < kScans; ++i) last = yaw.measure(0.0) / kDegree;
     squares += last * last;
   }
   EXPECT_NEAR(std::sqrt(squares / kWalks), std::sqrt(0.25 + kScans * 0.0025), 0.15);

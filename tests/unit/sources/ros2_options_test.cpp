@@ -15,7 +15,7 @@ Result<Ros2Options> read(const std::string& source) {
   return read_ros2_options(*spec);
 }
 
-std::string refusal(const std::string& source) {
+std::string ros2_refusal(const std::string& source) {
   const auto options = read(source);
   if (options) return "accepted";
   EXPECT_EQ(options.error().code, ErrorCode::wrong_use);
@@ -51,19 +51,20 @@ TEST(Ros2Options, DdsNamesATopicWithItsPrefix) {
 TEST(Ros2Options, WhatIsNoTopicNameIsRefusedByName) {
   for (const std::string name :
        {"/", "/scan/", "//scan", "/2scan", "/a//b", "/a b", "~/scan", "/scan-1", "/a/3d"}) {
-    EXPECT_EQ(refusal("ros2:" + name),
+    EXPECT_EQ(ros2_refusal("ros2:" + name),
               "ros2: '" + name + "' is no name of a ROS 2 topic; write ros2:/scan,/imu/data");
   }
-  EXPECT_THAT(refusal("ros2:/scan,"), HasSubstr("'' is no name"));
-  EXPECT_THAT(refusal("ros2:/scan,/imu,/more"), HasSubstr("'/imu,/more' is no name"));
-  EXPECT_THAT(refusal("ros2:/" + std::string(300, 'a')), HasSubstr("is no name"));
-  EXPECT_THAT(refusal("ros2:/scan,scan"), HasSubstr("/scan is named twice"));
+  EXPECT_THAT(ros2_refusal("ros2:/scan,"), HasSubstr("'' is no name"));
+  EXPECT_THAT(ros2_refusal("ros2:/scan,/imu,/more"), HasSubstr("'/imu,/more' is no name"));
+  EXPECT_THAT(ros2_refusal("ros2:/" + std::string(300, 'a')), HasSubstr("is no name"));
+  EXPECT_THAT(ros2_refusal("ros2:/scan,scan"), HasSubstr("/scan is named twice"));
 }
 
 TEST(Ros2Options, ValuesOutsideOfTheirRangeAreRefused) {
-  EXPECT_THAT(refusal("ros2:/scan?domain=233"), HasSubstr("not an integer from 0 to 232"));
-  EXPECT_THAT(refusal("ros2:/scan?scans=0"), HasSubstr("scans=0 is not an integer from 1"));
-  EXPECT_THAT(refusal("ros2:/scan?imu=/imu"), HasSubstr("has no option 'imu'; there are: domain"));
+  EXPECT_THAT(ros2_refusal("ros2:/scan?domain=233"), HasSubstr("not an integer from 0 to 232"));
+  EXPECT_THAT(ros2_refusal("ros2:/scan?scans=0"), HasSubstr("scans=0 is not an integer from 1"));
+  EXPECT_THAT(ros2_refusal("ros2:/scan?imu=/imu"),
+              HasSubstr("has no option 'imu'; there are: domain"));
 }
 
 }  // namespace

@@ -23,15 +23,15 @@ using test::TopicToWrite;
 using test::write_db3;
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kSecondNs = 1'000'000'000;
 const TopicToWrite kScan{"/scan", "sensor_msgs/msg/LaserScan"};
 const TopicToWrite kOtherScan{"/rear", "sensor_msgs/msg/LaserScan"};
 const TopicToWrite kImu{"/imu", "sensor_msgs/msg/Imu"};
 const TopicToWrite kPose{"/pose", "geometry_msgs/msg/PoseStamped"};
 
 /// A scan at `second` with `beams` beams of the length `second` in metres.
-MessageToWrite scan_message(std::size_t topic, std::uint32_t second, std::size_t beams = 3) {
-  return {topic, second * kSecond,
+MessageToWrite scan_to_write(std::size_t topic, std::uint32_t second, std::size_t beams = 3) {
+  return {topic, second * kSecondNs,
           laser_message({.seconds = second,
                          .nanoseconds = 0,
                          .ranges = std::vector<float>(beams, static_cast<float>(second))},
@@ -41,7 +41,7 @@ MessageToWrite scan_message(std::size_t topic, std::uint32_t second, std::size_t
 /// The yaw is 0.2 rad times the seconds.
 MessageToWrite yaw_message(std::size_t topic, std::uint32_t second) {
   const double half_rad = 0.1 * second;
-  return {topic, second * kSecond,
+  return {topic, second * kSecondNs,
           imu_message({.seconds = second,
                        .nanoseconds = 20'000'000,
                        .z = std::sin(half_rad),
@@ -51,9 +51,11 @@ MessageToWrite yaw_message(std::size_t topic, std::uint32_t second) {
 
 TEST(Rosbag2Source, PlaysTheScansInTheOrderOfRecordingWhateverElseTheBagHolds) {
   const RecordingFolder folder;
-  write_db3(
-      folder.path("a.db3"), {kPose, kScan},
-      {scan_message(1, 3), {0, 1 * kSecond, {1, 2, 3}}, scan_message(1, 1), scan_message(1, 2)});
+  write_db3(folder.path("a.db3"), {kPose, kScan},
+            {scan_to_write(1, 3),
+             {0, 1 * kSecondNs, {1, 2, 3}},
+             scan_to_write(1, 1),
+             scan_to_write(1, 2)});
   for (const std::string& target : {folder.path(""), folder.path("a.db3")}) {
     const Played played = play("rosbag2:" + target);
     ASSERT_EQ(played.error, "");
@@ -70,7 +72,7 @@ TEST(Rosbag2Source, PlaysTheScansInTheOrderOfRecordingWhateverElseTheBagHolds) {
 TEST(Rosbag2Source, TakesBeamCountsThatVaryFromScanToScan) {
   const RecordingFolder folder;
   write_db3(folder.path("a.db3"), {kScan},
-            {scan_message(0, 1, 453), scan_message(0, 2, 456), scan_message(0, 3, 0)});
+            {scan_to_write(0, 1, 453), scan_to_write(0, 2, 456), scan_to_write(0, 3, 0)});
   const Played played = play("rosbag2:" + folder.path(""));
   ASSERT_EQ(played.scans.size(), 3U);
   EXPECT_EQ(played.scans[0].ranges_m.size(), 453U);
@@ -80,9 +82,9 @@ TEST(Rosbag2Source, TakesBeamCountsThatVaryFromScanToScan) {
 
 TEST(Rosbag2Source, PlaysASplitRecordingInTheOrderOfTime) {
   const RecordingFolder folder;
-  write_db3(folder.path("bag_10.db3"), {kScan}, {scan_message(0, 5)});
-  write_db3(folder.path("bag_9.db3"), {kPose, kScan}, {scan_message(1, 3), scan_message(1, 4)});
-  write_db3(folder.path("bag_1.db3"), {kScan}, {scan_message(0, 1)});
+  write_db3(folder.path("bag_10.db3"), {kScan}, {scan_to_write(0, 5)});
+  write_db3(folder.path("bag_9.db3"), {kPose, kScan}, {scan_to_write(1, 3), scan_to_write(1, 4)});
+  write_db3(folder.path("bag_1.db3"), {kScan}, {scan_to_write(0, 1)});
   const Played played = play("rosbag2:" + folder.path(""));
   ASSERT_EQ(played.scans.size(), 4U) << played.error;
   EXPECT_EQ(played.scans[0].ranges_m[0], 1.0F);
@@ -92,7 +94,7 @@ TEST(Rosbag2Source, PlaysASplitRecordingInTheOrderOfTime) {
 
 TEST(Rosbag2Source, PlaysTheFirstScanTopicOrTheOneAskedFor) {
   const RecordingFolder folder;
-  write_db3(folder.path("a.db3"), {kScan, kOtherScan}, {scan_message(0, 1), scan_message(1, 2)});
+  write_db3(folder.path("a.db3"), {kScan, kOtherScan}, {scan_to_write(0, 1), scan_to_write(1, 2)});
   EXPECT_EQ(play("rosbag2:" + folder.path("")).scans.at(0).ranges_m[0], 1.0F);
   const Played rear = play("rosbag2:" + folder.path("") + "?scan=/rear");
   ASSERT_EQ(rear.scans.size(), 1U);
@@ -102,8 +104,8 @@ TEST(Rosbag2Source, PlaysTheFirstScanTopicOrTheOneAskedFor) {
 TEST(Rosbag2Source, GivesTheAttitudeOfTheImuAtEachScansTime) {
   const RecordingFolder folder;
   write_db3(folder.path("a.db3"), {kImu, kScan},
-            {yaw_message(0, 1), scan_message(1, 1), scan_message(1, 2), yaw_message(0, 3),
-             scan_message(1, 3)});
+            {yaw_message(0, 1), scan_to_write(1, 1), scan_to_write(1, 2), yaw_message(0, 3),
+             scan_to_write(1, 3)});
   const Played played = play("rosbag2:" + folder.path(""));
   ASSERT_EQ(played.scans.size(), 3U) << played.error;
   ASSERT_TRUE(played.scans[0].attitude);
@@ -119,7 +121,7 @@ TEST(Rosbag2Source, GivesTheAttitudeOfTheImuAtEachScansTime) {
 TEST(Rosbag2Source, PlaysTheHalfOpenRangeOfScansOnly) {
   const RecordingFolder folder;
   write_db3(folder.path("a.db3"), {kScan},
-            {scan_message(0, 1), scan_message(0, 2), scan_message(0, 3), scan_message(0, 4)});
+            {scan_to_write(0, 1), scan_to_write(0, 2), scan_to_write(0, 3), scan_to_write(0, 4)});
   const Played played = play("rosbag2:" + folder.path("") + "?from=1&to=3");
   ASSERT_EQ(played.scans.size(), 2U);
   EXPECT_EQ(played.scans[0].ranges_m[0], 2.0F);
@@ -130,7 +132,7 @@ TEST(Rosbag2Source, PlaysTheHalfOpenRangeOfScansOnly) {
 TEST(Rosbag2Source, ReadsAFolderThatNobodyMayWriteTo) {
   const RecordingFolder folder;
   std::filesystem::create_directory(folder.path("bag #1?"));
-  write_db3(folder.path("bag #1?/a.db3"), {kScan}, {scan_message(0, 1)});
+  write_db3(folder.path("bag #1?/a.db3"), {kScan}, {scan_to_write(0, 1)});
   using std::filesystem::perms;
   std::filesystem::permissions(folder.path("bag #1?"), perms::owner_read | perms::owner_exec);
   const Played played = play("rosbag2:" + folder.path("bag #1?") + "?to=9");
@@ -179,7 +181,7 @@ TEST(Rosbag2Source, NamesABagWithoutScans) {
 
 TEST(Rosbag2Source, NamesATopicThatIsMissingOrOfAnotherType) {
   const RecordingFolder folder;
-  write_db3(folder.path("a.db3"), {kScan, kPose}, {scan_message(0, 1)});
+  write_db3(folder.path("a.db3"), {kScan, kPose}, {scan_to_write(0, 1)});
   const std::string bag = "rosbag2:" + folder.path("");
   EXPECT_THAT(play(bag + "?scan=/front").error, HasSubstr("has no topic /front; it holds /scan"));
   EXPECT_THAT(play(bag + "?imu=/imu").error, HasSubstr("has no topic /imu; it holds /scan"));
@@ -211,7 +213,7 @@ TEST(Rosbag2Source, NamesATruncatedBag) {
   const RecordingFolder folder;
   std::vector<MessageToWrite> messages;
   for (std::uint32_t second = 1; second < 100; ++second) {
-    messages.push_back(scan_message(0, second, 500));
+    messages.push_back(scan_to_write(0, second, 500));
   }
   write_db3(folder.path("whole.db3"), {kScan}, messages);
   std::ifstream file(folder.path("whole.db3"), std::ios::binary);
@@ -232,14 +234,14 @@ TEST(Rosbag2Source, NamesAnotherSerialization) {
 TEST(Rosbag2Source, NamesTheMessageThatIsMalformed) {
   const RecordingFolder folder;
   write_db3(folder.path("a.db3"), {kScan},
-            {scan_message(0, 1), {0, 2 * kSecond, {0, 1, 0, 0, 9}}, scan_message(0, 3)});
+            {scan_to_write(0, 1), {0, 2 * kSecondNs, {0, 1, 0, 0, 9}}, scan_to_write(0, 3)});
   const Played played = play("rosbag2:" + folder.path(""));
   EXPECT_EQ(played.scans.size(), 1U);
   EXPECT_EQ(played.error,
             folder.path("a.db3") +
                 ": message 2 of /scan: its 5 bytes are no whole LaserScan of at most 32768 beams");
 
-  write_db3(folder.path("b.db3"), {kScan, kImu}, {scan_message(0, 1), {1, kSecond, {}}});
+  write_db3(folder.path("b.db3"), {kScan, kImu}, {scan_to_write(0, 1), {1, kSecondNs, {}}});
   EXPECT_EQ(play("rosbag2:" + folder.path("b.db3")).error,
             folder.path("b.db3") + ": message 1 of /imu: 0 bytes are too few for a message");
 }
@@ -247,7 +249,7 @@ TEST(Rosbag2Source, NamesTheMessageThatIsMalformed) {
 TEST(Rosbag2Source, RefusesAMessageLargerThanAnyScan) {
   const RecordingFolder folder;
   write_db3(folder.path("a.db3"), {kScan},
-            {{0, kSecond, std::vector<std::uint8_t>(5 * 1024 * 1024)}});
+            {{0, kSecondNs, std::vector<std::uint8_t>(5 * 1024 * 1024)}});
   EXPECT_THAT(play("rosbag2:" + folder.path("")).error,
               HasSubstr("message 1 of /scan: 5242880 bytes are more than any scan has"));
 }

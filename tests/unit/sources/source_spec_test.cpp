@@ -16,7 +16,7 @@ SourceSpec parsed(std::string_view source) {
   return spec ? *spec : SourceSpec{};
 }
 
-std::string refusal(std::string_view source) {
+std::string spec_refusal(std::string_view source) {
   const auto spec = parse_source_spec(source);
   if (spec) return "accepted";
   EXPECT_EQ(spec.error().code, ErrorCode::wrong_use);
@@ -47,20 +47,21 @@ TEST(SourceSpec, LetsAnOptionHoldSlashesAndEqualsSigns) {
 }
 
 TEST(SourceSpec, RefusesATextWithoutKindOrTarget) {
-  EXPECT_THAT(refusal("intel.log"), HasSubstr("does not begin with a kind"));
-  EXPECT_THAT(refusal(":intel.log"), HasSubstr("does not begin with a kind"));
-  EXPECT_THAT(refusal("Car men:intel.log"), HasSubstr("does not begin with a kind"));
-  EXPECT_EQ(refusal("carmen:"), "source 'carmen:' names nothing after 'carmen:'");
-  EXPECT_EQ(refusal("carmen:?from=1"), "source 'carmen:?from=1' names nothing after 'carmen:'");
+  EXPECT_THAT(spec_refusal("intel.log"), HasSubstr("does not begin with a kind"));
+  EXPECT_THAT(spec_refusal(":intel.log"), HasSubstr("does not begin with a kind"));
+  EXPECT_THAT(spec_refusal("Car men:intel.log"), HasSubstr("does not begin with a kind"));
+  EXPECT_EQ(spec_refusal("carmen:"), "source 'carmen:' names nothing after 'carmen:'");
+  EXPECT_EQ(spec_refusal("carmen:?from=1"),
+            "source 'carmen:?from=1' names nothing after 'carmen:'");
 }
 
 TEST(SourceSpec, RefusesMalformedAndRepeatedOptions) {
   for (const std::string option : {"from", "from=", "=1"}) {
-    EXPECT_EQ(refusal("carmen:a?" + option), "source 'carmen:a?" + option + "': option '" + option +
-                                                 "' is not of the form key=value");
+    EXPECT_EQ(spec_refusal("carmen:a?" + option), "source 'carmen:a?" + option + "': option '" +
+                                                      option + "' is not of the form key=value");
   }
-  EXPECT_THAT(refusal("carmen:a?to=1&&from=2"), HasSubstr("option '' is not of the form"));
-  EXPECT_EQ(refusal("carmen:a?to=1&to=2"),
+  EXPECT_THAT(spec_refusal("carmen:a?to=1&&from=2"), HasSubstr("option '' is not of the form"));
+  EXPECT_EQ(spec_refusal("carmen:a?to=1&to=2"),
             "source 'carmen:a?to=1&to=2': option 'to' is given twice");
 }
 

@@ -6,12 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "common/wire/tile_codec.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/tiles.hpp"
 
 namespace lifeline::wire {
 namespace {
-
-const GridGeometry kGeometry{.cell_size_m = 0.05, .truncation_m = 0.15};
 
 QuantisedTile uniform(int tsd, int weight) {
   QuantisedTile tile{};

@@ -7,12 +7,11 @@
 #include "common/wire/coarse_cells.hpp"
 #include "common/wire/limits.hpp"
 #include "common/wire/tile_codec.hpp"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/tiles.hpp"
 
 namespace lifeline::wire {
 namespace {
-
-const GridGeometry kGeometry{.cell_size_m = 0.05, .truncation_m = 0.15};
 
 TEST(CoarseTile, AnyTileIsCoarseOnceItWasMadeSo) {
   std::mt19937 random(3);

@@ -9,6 +9,7 @@
 #include "common/wire/limits.hpp"
 #include "common/wire/tile_planes.hpp"
 #include "idl/tile.pb.h"
+#include "tests/support/fine_grid.hpp"
 #include "tests/support/tiles.hpp"
 
 namespace lifeline::wire {
@@ -16,8 +17,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using Octets = std::vector<std::uint8_t>;
-
-const GridGeometry kGeometry{.cell_size_m = 0.05, .truncation_m = 0.15};
 
 Octets compressed(const std::string& content, bool states_size = true) {
   ZSTD_CCtx* context = ZSTD_createCCtx();
