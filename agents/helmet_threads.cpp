@@ -8,8 +8,10 @@ namespace lifeline {
 namespace {
 
 constexpr std::size_t kQueuedScans = 8;
-constexpr Duration kHandOverInterval = std::chrono::milliseconds(100);
-// With the wait for a scan, which lasts a hand-over's interval, within half a second.
+constexpr Duration kWaitForScan = std::chrono::milliseconds(100);
+// Below a lidar's usual 100 ms: each of its scans is handed over as soon as it is mapped.
+constexpr Duration kLeastBetweenHandOvers = std::chrono::milliseconds(50);
+// With the wait for a scan within half a second.
 constexpr Duration kSilentAfter = std::chrono::milliseconds(400);
 
 }  // namespace
@@ -59,7 +61,7 @@ void HelmetThreads::map_scans() {
   SteadyTime hand_over_due{}, last_scan = std::chrono::steady_clock::now();
   while (!scans_.finished()) {
     if (auto peers = mailbox_.take_peers()) mapper_.apply(*peers);
-    const auto taken = scans_.pop(kHandOverInterval);
+    const auto taken = scans_.pop(kWaitForScan);
     const SteadyTime now = std::chrono::steady_clock::now();
     if (taken) {
       mapper_.step(taken->scan);
@@ -69,7 +71,7 @@ void HelmetThreads::map_scans() {
     mapper_.set_lidar_health(now - last_scan > kSilentAfter ? wire::SensorHealth::silent
                                                             : wire::SensorHealth::good);
     if (now < hand_over_due) continue;
-    hand_over_due = now + kHandOverInterval;
+    hand_over_due = now + kLeastBetweenHandOvers;
     hand_over(false);
   }
   mapper_.finish();

@@ -14,6 +14,8 @@ template <typename... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <typename... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;  // clang 14 does not work it out itself
 
 // A find is all that its helmets saw of it.
 Result<void> rule(Coordinator& coordinator, const RuleFind& order) {

@@ -91,7 +91,7 @@ function(lifeline_test name)
   if(threads IN_LIST arg_LABELS)  # the ones that the thread sanitizer build is for
     lifeline_add_to_group(lifeline_thread_tests ${name})
   endif()
-  if(NOT system IN_LIST arg_LABELS)  # the ones that the address sanitizer build is for
+  if(NOT system IN_LIST arg_LABELS AND NOT bench IN_LIST arg_LABELS)  # the ones that the address sanitizer build is for
     lifeline_add_to_group(lifeline_inner_tests ${name})
   endif()
   # Joined, since gtest_discover_tests takes lists apart; `ctest -L` looks for parts of a label.
@@ -101,7 +101,7 @@ function(lifeline_test name)
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${labels}")
 endfunction()
 
-# lifeline_fuzzer(NAME_fuzz SOURCES a.cpp ... LINK libs...): a libFuzzer program in build/fuzz/bin; nothing in other presets.
+# lifeline_fuzzer(NAME_fuzz SOURCES a.cpp ... LINK libs...): a libFuzzer program in the preset's bin; nothing without LIFELINE_FUZZ.
 function(lifeline_fuzzer name)
   if(NOT LIFELINE_FUZZ)
     return()

@@ -110,7 +110,8 @@ class SimulatedNetwork {
 
   template <typename Message>
   void send(const std::string& from, const Message& message) {
-    for (const auto& [machine, queues] : inboxes_) {
+    for (const auto& inbox : inboxes_) {
+      const auto& [machine, queues] = inbox;
       const auto queue = queues.find(kind<Message>());
       if (machine == from || queue == queues.end()) continue;
       const int copies = dice_.chance(conditions_.doubled) ? 2 : 1;
@@ -119,7 +120,8 @@ class SimulatedNetwork {
         if (dice_.chance(conditions_.loss)) continue;
         const std::weak_ptr<void> to = queue->second;
         under_way_.emplace(
-            std::pair(clock_.steady_now() + delay, ++sent_), [this, from, machine, to, message] {
+            std::pair(clock_.steady_now() + delay, ++sent_),
+            [this, from, machine = inbox.first, to, message] {
               const auto alive = to.lock();
               if (alive == nullptr || !connected(from, machine)) return;
               std::static_pointer_cast<std::vector<Message>>(alive)->push_back(message);

@@ -97,7 +97,8 @@ void UpdateStudy::play(const PaperExperiment& experiment, const PaperWalk& walk,
 
 std::vector<ReportRow> UpdateStudy::rows() const {
   std::vector<ReportRow> rows;
-  for (const auto& [key, runs] : runs_) {
+  for (const auto& [key, runs_of_key] : runs_) {
+    const auto& runs = runs_of_key;  // clang 14 captures no structured binding
     const auto& [experiment, is_spoilt, w_T1] = key;
     const std::string name = fmt::format("c, experiment {}, T_G {}, {}", experiment,
                                          is_spoilt ? "spoilt" : "good", name_of_weight(w_T1));

@@ -138,8 +138,8 @@ TEST(TrajectoryError, AgreesWithTheIndependentEvaluator) {
   EXPECT_EQ(ours->lost, lost);
   EXPECT_NEAR(ours->rmse_m, rmse_m, 1e-6);
   EXPECT_NEAR(ours->max_m, max_m, 1e-6);
-  EXPECT_NEAR(ours->rmse_rad * kDegree, rmse_deg, 1e-4);
-  EXPECT_NEAR(ours->max_rad * kDegree, max_deg, 1e-4);
+  EXPECT_NEAR(ours->rmse_rad / kDegree, rmse_deg, 1e-4);
+  EXPECT_NEAR(ours->max_rad / kDegree, max_deg, 1e-4);
   EXPECT_GT(rmse_m, 0.05);
 }
 
