@@ -8,7 +8,9 @@
 #include <random>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -28,6 +30,7 @@ const GridGeometry kGrid{};
 /// After a walk, for the tiles that still wait.
 constexpr std::chrono::milliseconds kMoment(20);
 constexpr std::size_t kNoRoom = 4000;  ///< less than a page
+constexpr double kWalkS = 15.0;
 constexpr Duration kRest = std::chrono::milliseconds(300);
 
 store::StateIdentity killed_identity() {
@@ -73,9 +76,11 @@ class PipeOutbox final : public wire::Outbox<wire::TsdTile> {
 /// over and no more of them come.
 [[noreturn]] void walk(const std::filesystem::path& folder, int end, double from_s,
                        std::size_t room) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no helmet outlives a test that is stopped
   const SystemClock clock;
-  const std::string source =
-      "sim:office?beams=200&seed=2&walk_seed=3&from=" + std::to_string(from_s);
+  // Not to the end of the tour: a helmet that stays lost searches with every scan.
+  const std::string source = fmt::format(
+      "sim:office?beams=200&seed=2&walk_seed=3&from={}&duration={}", from_s, from_s + kWalkS);
   wire::LoopbackBus bus;
   store::RecordStoreConfig records;
   records.give_up_after = std::chrono::hours(1);  // a busy machine's disk is slow, not broken
