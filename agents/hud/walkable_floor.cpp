@@ -8,6 +8,8 @@ namespace lifeline::hud {
 namespace {
 
 constexpr int kInexactCells = 2;
+// Over one cell that is not free, no more: walls are thicker.
+constexpr double kBesideCells = 2.5;
 constexpr double kLongestStep_m = 3.0;
 constexpr int kReachBlocks = 5;
 
@@ -15,16 +17,16 @@ constexpr int kReachBlocks = 5;
 
 WalkableFloor::WalkableFloor(const HudMap& map, const std::vector<Eigen::Vector2d>& trail)
     : map_(map) {
-  std::optional<CellIndex> before;
+  std::optional<Eigen::Vector2d> before_m;
   for (std::size_t i = 1; i < trail.size(); ++i) {
     const Eigen::Vector2d step = trail[i] - trail[i - 1];
     const int pieces = static_cast<int>(std::ceil(step.norm() / map.cell_size_m())) + 1;
     if (step.norm() > kLongestStep_m) {  // not walked: found again elsewhere
-      before.reset();
+      before_m.reset();
       continue;
     }
     for (int piece = 0; piece <= pieces; ++piece)
-      add_walked(trail[i - 1] + step * (static_cast<double>(piece) / pieces), before);
+      add_walked(trail[i - 1] + step * (static_cast<double>(piece) / pieces), before_m);
   }
 }
 
@@ -83,20 +85,26 @@ std::optional<Eigen::Vector2d> WalkableFloor::free_near(const Eigen::Vector2d& p
   return nearest;
 }
 
-void WalkableFloor::add_walked(const Eigen::Vector2d& trail_m, std::optional<CellIndex>& before) {
+void WalkableFloor::add_walked(const Eigen::Vector2d& trail_m,
+                               std::optional<Eigen::Vector2d>& before_m) {
   const auto free_m = free_near(trail_m);
-  if (!free_m) {
-    before.reset();
-    return;
+  if (free_m) {
+    const CellIndex block = cell_at(*free_m, block_size_m());
+    walked_.try_emplace(block, Walked{*free_m, {}});
+    // Where the map was corrected since, the trail may lie in a wall, with free cells nearest to it
+    // on either side: no way leads from one to the other.
+    if (before_m && (*free_m - *before_m).norm() < kBesideCells * map_.cell_size_m())
+      join(cell_at(*before_m, block_size_m()), block);
   }
-  const Eigen::Vector2d& p_m = *free_m;
-  const CellIndex block = cell_at(p_m, block_size_m());
-  Walked& here = walked_.try_emplace(block, Walked{p_m, {}}).first->second;
-  if (before && *before != block && std::ranges::find(here.on_to, *before) == here.on_to.end()) {
-    here.on_to.push_back(*before);
-    walked_.at(*before).on_to.push_back(block);
-  }
-  before = block;
+  before_m = free_m;
+}
+
+void WalkableFloor::join(CellIndex a, CellIndex b) {
+  if (a == b) return;
+  auto& from_b = walked_.at(b).on_to;
+  if (std::ranges::find(from_b, a) != from_b.end()) return;
+  from_b.push_back(a);
+  walked_.at(a).on_to.push_back(b);
 }
 
 }  // namespace lifeline::hud

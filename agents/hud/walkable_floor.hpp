@@ -40,7 +40,8 @@ class WalkableFloor {
   };
   [[nodiscard]] double block_size_m() const;
   [[nodiscard]] std::optional<Eigen::Vector2d> free_near(const Eigen::Vector2d& p_m) const;
-  void add_walked(const Eigen::Vector2d& trail_m, std::optional<CellIndex>& before);
+  void add_walked(const Eigen::Vector2d& trail_m, std::optional<Eigen::Vector2d>& before_m);
+  void join(CellIndex a, CellIndex b);
 
   const HudMap& map_;
   std::unordered_map<CellIndex, Walked, BlockHash> walked_;

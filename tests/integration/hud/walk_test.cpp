@@ -12,16 +12,14 @@
 namespace lifeline::hud {
 namespace {
 
-/// Every 2 cm, to a cell. What looks too narrow on the map, its wearer has walked.
-bool is_off_the_floor(const HudMap& map, const Path& trail, const Path& path) {
+/// Every 2 cm, to a cell.
+bool is_off_the_floor(const HudMap& map, const Path& path) {
   for (std::size_t i = 2; i + 1 < path.size(); ++i) {  // both ends may lie beside a wall
     const Eigen::Vector2d step = path[i] - path[i - 1];
     for (double t = 0.0; t <= 1.0; t += 0.02 / std::max(0.02, step.norm())) {
       const Eigen::Vector2d p_m = path[i - 1] + t * step;
       const CellIndex cell = cell_at(p_m, map.cell_size_m());
-      bool floor = std::ranges::any_of(trail, [&](const Eigen::Vector2d& walked) {
-        return (walked - p_m).norm() < kSamePlaceM;
-      });
+      bool floor = false;
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx)
           floor = floor || map.at({cell.x + dx, cell.y + dy}) == Occupancy::free;
@@ -58,10 +56,11 @@ TEST_P(HudOnAWalk, TheWayOutIsKnownAndLeadsOverFloorThatWasSeen) {
     EXPECT_GE(way.length_m, straight_m - 1e-6);
     if (way.by_own_trail) continue;
     ++free_ways;
-    EXPECT_FALSE(is_off_the_floor(core.map(), core.trail(), way.points)) << "after scan " << scan;
+    EXPECT_FALSE(is_off_the_floor(core.map(), way.points)) << "after scan " << scan;
   }
   EXPECT_GE(looks, 50);
-  EXPECT_GE(free_ways, looks * 9 / 10) << "of " << looks;
+  // The rest by the own trail: through doors that the map shows closed again, or as it once was.
+  EXPECT_GE(free_ways, looks / 2) << "of " << looks;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -88,6 +88,17 @@ TEST(WayOut, LeadsThroughANarrowPlaceWhereOneHasWalked) {
   EXPECT_FALSE(find_way_out(map, trail, {5.0, 1.5})->by_own_trail);
 }
 
+TEST(WayOut, ATrailThatAMovedMapPutsIntoAWallLeadsNotThroughIt) {
+  HudMap map(0.05);
+  map.put(test::drawn_tiles({0.0, 0.0}, {6.0, 3.0}, [](const Vector2d& p_m) {
+    return std::abs(p_m.x() - 3.0) < 0.1 ? Occupancy::occupied : Occupancy::free;
+  }));
+  map.refresh();
+  const Path trail{{1.0, 0.5}, {2.6, 0.5}, {2.95, 0.8}, {3.05, 2.2}, {3.4, 2.5}, {5.0, 2.5}};
+  EXPECT_FALSE(find_free_way(map, trail, {1.0, 0.5}, {5.0, 2.5}));
+  EXPECT_TRUE(find_way_out(map, trail, {5.0, 2.5})->by_own_trail);
+}
+
 TEST(WayOut, FollowsTheOwnTrailWhereNoFreeWayIsKnownAndSaysSo) {
   auto plan = kTwoRooms;
   for (auto& row : plan) row[6] = row[6] == '.' ? ' ' : row[6];
