@@ -66,6 +66,7 @@ struct CoordinatorMemory {
   std::optional<wire::MergeDirective> directive;
   merging::EdgeMap edges;
   std::set<merging::LayerPair> parted_by_hand{};
+  std::vector<wire::Alert> alerts{};  ///< what it raised
 };
 
 struct CoordinatorSettings {
@@ -141,6 +142,8 @@ class Coordinator {
   /// Where everybody was last heard to be.
   [[nodiscard]] const sharing::PoseWatch& poses() const { return poses_; }
   [[nodiscard]] const sharing::AlertList& alerts() const { return alerts_.list(); }
+  /// What it raised itself, to be kept through a restart.
+  [[nodiscard]] std::vector<wire::Alert> own_alerts() const { return alerts_.own(); }
   [[nodiscard]] const std::set<merging::LayerPair>& parted_by_hand() const {
     return keeper_.parted_by_hand();
   }

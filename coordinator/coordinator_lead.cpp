@@ -22,6 +22,7 @@ Result<void> Coordinator::resume(const CoordinatorMemory& memory) {
     }
   }
   keeper_.adopt(memory.edges, memory.parted_by_hand);
+  if (auto taken = alerts_.resume(memory.alerts); !taken) return taken;
   if (!memory.directive) return {};
   if (auto sound = sharing::check_directive(*memory.directive); !sound) return sound;
   (void)writer_.adopt(*memory.directive);

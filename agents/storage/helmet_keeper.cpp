@@ -162,18 +162,4 @@ void HelmetKeeper::keep(const wire::MergeDirective& directive) {
   records_.put(store::kDirectiveKey, store::directive_record(directive));
 }
 
-void HelmetKeeper::keep(const std::vector<wire::Alert>& own) {
-  proto::KeptAlerts kept;
-  for (const wire::Alert& alert : own) {
-    auto& record = *kept.add_alerts();
-    record.set_alert_id(alert.alert_id);
-    record.set_kind(static_cast<std::uint32_t>(alert.kind));
-    record.set_state(static_cast<std::uint32_t>(alert.state));
-    record.set_subject_id(alert.subject_id);
-    record.set_text(alert.text);
-    for (const auto& name : alert.acknowledged_by) record.add_acknowledged_by(name);
-  }
-  records_.put(kAlertsKey, kept.SerializeAsString());
-}
-
 }  // namespace lifeline

@@ -44,8 +44,6 @@ class HelmetKeeper {
   /// A tile of somebody else.
   void keep(const LayerKey& layer, TileIndex tile, const sharing::ReplicaTile& held);
   void keep(const wire::MergeDirective& directive);
-  /// What this helmet raised.
-  void keep(const std::vector<wire::Alert>& own);
 
  private:
   using Cells = std::shared_ptr<const TsdTile>;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "common/store/alert_records.hpp"
 #include "common/store/packed_cells.hpp"
 #include "common/store/tile_records.hpp"
 #include "idl/state.pb.h"
@@ -125,29 +126,6 @@ Result<MapperMemory> read_mapper(const store::Records& records, const StartedAt&
   return memory;
 }
 
-/// The alerts of the helmet `id`, as its list would take them from itself.
-Result<std::vector<wire::Alert>> read_alerts(const store::Records& records, const std::string& id) {
-  std::vector<wire::Alert> alerts;
-  const auto record = records.find(kAlertsKey);
-  if (record == records.end()) return alerts;
-  proto::KeptAlerts kept;
-  if (!kept.ParseFromString(record->second)) return broken(kAlertsKey);
-  sharing::AlertList list;
-  for (const auto& each : kept.alerts()) {
-    wire::Alert alert;
-    alert.envelope.sender_id = alert.issuer_id = id;
-    alert.alert_id = each.alert_id();
-    alert.kind = static_cast<wire::AlertKind>(std::min(each.kind(), 255U));
-    alert.state = static_cast<wire::AlertState>(std::min(each.state(), 255U));
-    alert.subject_id = each.subject_id();
-    alert.text = each.text();
-    alert.acknowledged_by = {each.acknowledged_by().begin(), each.acknowledged_by().end()};
-    if (!list.apply(alert, false, {})) return broken(kAlertsKey);
-    alerts.push_back(std::move(alert));
-  }
-  return alerts;
-}
-
 }  // namespace
 
 Result<HelmetMemory> read_helmet_memory(const store::Records& records, const StartedAt& start,
@@ -162,7 +140,7 @@ Result<HelmetMemory> read_helmet_memory(const store::Records& records, const Sta
   if (!layers) return forward_error(layers);
   auto directive = store::read_directive(records, identity.mission_id);
   if (!directive) return forward_error(directive);
-  auto alerts = read_alerts(records, identity.id);
+  auto alerts = store::read_alerts(records, identity.id);
   if (!alerts) return forward_error(alerts);
   memory.sharing = {*std::move(layers), *std::move(directive),
                     Revision{(start.start_number - 1) * kRevisionsPerStart},

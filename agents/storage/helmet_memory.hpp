@@ -37,7 +37,6 @@ struct StartedAt {
 // Keys of the records, for whoever writes them.
 inline constexpr const char* kProgressKey = "helmet";
 inline constexpr const char* kPlaceKey = "place";
-inline constexpr const char* kAlertsKey = "alerts";
 inline constexpr const char* kLayerPrefix = "layer";
 inline constexpr const char* kPathPrefix = "path/";
 inline constexpr std::size_t kPosesPerPiece = 256;

@@ -1,6 +1,5 @@
 #include "agents/storage/helmet_storage.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "common/base/log.hpp"
@@ -24,15 +23,6 @@ Result<std::optional<store::OpenState>> open_sound_state(const std::filesystem::
   }
   return store::begin_anew(*std::move(*opened), folder, identity, read.error().text,
                            clock.wall_now());
-}
-
-/// An alert only grows, so that its size tells.
-bool is_same(const std::vector<wire::Alert>& a, const std::vector<wire::Alert>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const wire::Alert& one, const wire::Alert& other) {
-                      return one.alert_id == other.alert_id && one.state == other.state &&
-                             one.acknowledged_by.size() == other.acknowledged_by.size();
-                    });
 }
 
 }  // namespace
@@ -93,7 +83,7 @@ void HelmetStorage::attach(sharing::HelmetChannels& channels) {
 Result<void> HelmetStorage::attach(sharing::HelmetSharing& helmet) {
   if (auto resumed = helmet.resume(memory_.sharing); !resumed) return resumed;
   kept_epoch_ = helmet.map().epoch().value;
-  kept_alerts_ = helmet.alerts().own();
+  alerts_.begin(helmet.alerts().own());
   memory_.sharing = {};
   helmet.set_tile_listener(
       [this](const LayerKey& layer, TileIndex tile, const sharing::ReplicaTile& held) {
@@ -115,10 +105,7 @@ void HelmetStorage::step(const sharing::HelmetSharing& helmet) {
     kept_epoch_ = directive.epoch;
     keeper_->keep(directive);
   }
-  if (auto own = helmet.alerts().own(); !is_same(own, kept_alerts_)) {
-    kept_alerts_ = std::move(own);
-    keeper_->keep(kept_alerts_);
-  }
+  alerts_.keep(helmet.alerts().own(), *records_);
   beat_.step(clock_.steady_now(), clock_.wall_now());
 }
 

@@ -6,6 +6,7 @@
 
 #include "agents/helmet_threads.hpp"
 #include "agents/storage/helmet_keeper.hpp"
+#include "common/store/alert_records.hpp"
 #include "common/store/write_ahead_outbox.hpp"
 
 namespace lifeline {
@@ -58,7 +59,7 @@ class HelmetStorage {
   store::WriteAheadOutbox<wire::TsdTile>* tiles_ = nullptr;    ///< owned by the helmet's channels
   store::WriteAheadOutbox<wire::TileCopy>* copies_ = nullptr;  ///< the same
   std::uint64_t kept_epoch_ = 0;
-  std::vector<wire::Alert> kept_alerts_;
+  store::AlertKeeper alerts_;
 };
 
 }  // namespace lifeline

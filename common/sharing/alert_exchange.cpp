@@ -47,20 +47,25 @@ Result<void> AlertExchange::resume(const std::vector<wire::Alert>& own) {
     if (alert.issuer_id != speaker_.id.text())
       return fail(ErrorCode::bad_data, "alert {}/{} is not its own", alert.issuer_id,
                   alert.alert_id);
-    alert.envelope = stamper_.next(clock_.wall_now());
-    if (auto held = list_.apply(alert, false, clock_.steady_now()); !held)
-      return forward_error(held);
     last_id_ = std::max(last_id_, alert.alert_id);
-    if (outbox_ != nullptr) put(std::move(alert));
+    if (auto taken = put(std::move(alert)); !taken) return taken;
   }
   return {};
 }
 
-void AlertExchange::put(wire::Alert alert) {
+Result<void> AlertExchange::put(wire::Alert alert) {
   alert.envelope = stamper_.next(clock_.wall_now());
-  auto taken = list_.apply(alert, role_ == wire::Role::coordinator, clock_.steady_now());
-  if (!taken) spdlog::warn("{}", taken.error().text);
-  if (auto sent = outbox_->put(alert); !sent) spdlog::warn("{}", sent.error().text);
+  const auto taken = list_.apply(alert, role_ == wire::Role::coordinator, clock_.steady_now());
+  if (outbox_ != nullptr) {
+    // What there is no room for here may still be heard by others.
+    if (auto sent = outbox_->put(alert); !sent) spdlog::warn("{}", sent.error().text);
+  }
+  if (!taken) return forward_error(taken);
+  return {};
+}
+
+void AlertExchange::say(wire::Alert alert) {
+  if (auto held = put(std::move(alert)); !held) spdlog::warn("{}", held.error().text);
 }
 
 Result<AlertKey> AlertExchange::raise(wire::AlertKind kind, const std::string& subject_id,
@@ -77,7 +82,7 @@ Result<AlertKey> AlertExchange::raise(wire::AlertKind kind, const std::string& s
   alert.subject_id = subject_id;
   alert.text = text;
   AlertKey key{alert.issuer_id, alert.alert_id};
-  put(std::move(alert));
+  say(std::move(alert));
   return key;
 }
 
@@ -88,7 +93,7 @@ Result<void> AlertExchange::answer(const AlertKey& key, wire::AlertState state) 
   wire::Alert alert = entry->alert;
   if (!has_answered(alert, speaker_.id.text())) alert.acknowledged_by.push_back(speaker_.id.text());
   alert.state = std::max(alert.state, state);
-  put(std::move(alert));
+  say(std::move(alert));
   return {};
 }
 
@@ -130,14 +135,14 @@ void AlertExchange::repeat(SteadyTime now) {
     if (!entry.is_told || entry.is_gathered) continue;
     if (key.first == self || has_answered(entry.alert, self)) again.push_back(entry.alert);
   }
-  for (auto& alert : again) put(std::move(alert));
+  for (auto& alert : again) say(std::move(alert));
 }
 
 void AlertExchange::reassure(SteadyTime now) {
   reassure_due_ = now + kReassureInterval + reply_after_;
   auto alerts = own();  // in the order of their ids
   const std::size_t old = alerts.size() - std::min(alerts.size(), kReassured);
-  for (std::size_t i = old; i < alerts.size(); ++i) put(std::move(alerts[i]));
+  for (std::size_t i = old; i < alerts.size(); ++i) say(std::move(alerts[i]));
 }
 
 }  // namespace lifeline::sharing

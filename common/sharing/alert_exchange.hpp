@@ -43,7 +43,9 @@ class AlertExchange {
   [[nodiscard]] std::uint64_t refused() const { return inbox_ == nullptr ? 0 : inbox_->refused(); }
 
  private:
-  void put(wire::Alert alert);
+  /// Says an alert to everybody, and holds it. An error where it cannot be held.
+  [[nodiscard]] Result<void> put(wire::Alert alert);
+  void say(wire::Alert alert);
   void repeat(SteadyTime now);
   void reassure(SteadyTime now);
 

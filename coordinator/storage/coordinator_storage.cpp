@@ -19,8 +19,10 @@ Result<CoordinatorMemory> read_memory(const store::Records& records,
   if (!directive) return forward_error(directive);
   auto merges = read_merges(records);
   if (!merges) return forward_error(merges);
+  auto alerts = store::read_alerts(records, identity.id);
+  if (!alerts) return forward_error(alerts);
   return CoordinatorMemory{*std::move(layers), *std::move(directive), std::move(merges->edges),
-                           std::move(merges->apart)};
+                           std::move(merges->apart), *std::move(alerts)};
 }
 
 }  // namespace
@@ -84,6 +86,7 @@ Result<void> CoordinatorStorage::attach(Coordinator& coordinator) {
   if (auto resumed = coordinator.resume(memory_); !resumed) return resumed;
   kept_epoch_ = coordinator.directive().epoch;
   kept_merges_ = merges_record(coordinator.merges(), coordinator.parted_by_hand());
+  alerts_.begin(coordinator.own_alerts());
   memory_ = {};
   coordinator.set_tile_listener(
       [this](const LayerKey& layer, TileIndex tile, const sharing::ReplicaTile& held) {
@@ -106,6 +109,7 @@ void CoordinatorStorage::step(const Coordinator& coordinator) {
     merges_due_ = now + kMergesInterval;
     keep_merges(merges_record(coordinator.merges(), coordinator.parted_by_hand()));
   }
+  alerts_.keep(coordinator.own_alerts(), *records_);
   beat_.step(now, clock_.wall_now());
 }
 

@@ -4,14 +4,15 @@
 #include <memory>
 #include <string>
 
+#include "common/store/alert_records.hpp"
 #include "common/store/state_file.hpp"
 #include "common/store/write_ahead_outbox.hpp"
 #include "coordinator/coordinator.hpp"
 
 namespace lifeline {
 
-/// A coordinator's state on disk: everybody's tiles, the merges and the directive, which leaves
-/// only once it is there. One owner, not thread-safe.
+/// A coordinator's state on disk: everybody's tiles, the merges, what it raised, and the
+/// directive, which leaves only once it is there. One owner, not thread-safe.
 class CoordinatorStorage {
  public:
   /// Empty where the disk refuses; the coordinator goes on without. An error: another process has
@@ -44,6 +45,7 @@ class CoordinatorStorage {
   std::unique_ptr<store::RecordStore> records_;
   store::StateBeat beat_;
   DirectiveOutbox* directives_ = nullptr;  ///< owned by the coordinator while it leads
+  store::AlertKeeper alerts_;
   std::string kept_merges_;
   SteadyTime merges_due_{};
   std::uint64_t kept_epoch_ = 0;

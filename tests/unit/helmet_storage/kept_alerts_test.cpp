@@ -55,8 +55,9 @@ class DamagedAlerts : public testing::Test {
   Result<HelmetMemory> read(const std::string& alerts) {
     proto::HelmetProgress progress;
     progress.set_map_id(1);
-    return read_helmet_memory({{kProgressKey, progress.SerializeAsString()}, {kAlertsKey, alerts}},
-                              {}, identity(), Floor{0});
+    return read_helmet_memory(
+        {{kProgressKey, progress.SerializeAsString()}, {store::kAlertsKey, alerts}}, {}, identity(),
+        Floor{0});
   }
 };
 
