@@ -88,7 +88,7 @@ TEST(WayOut, LeadsThroughANarrowPlaceWhereOneHasWalked) {
   EXPECT_FALSE(find_way_out(map, trail, {5.0, 1.5})->by_own_trail);
 }
 
-TEST(WayOut, ATrailThatAMovedMapPutsIntoAWallLeadsNotThroughIt) {
+TEST(WayOut, ATrailAlongInsideAWallLeadsNotThroughIt) {
   HudMap map(0.05);
   map.put(test::drawn_tiles({0.0, 0.0}, {6.0, 3.0}, [](const Vector2d& p_m) {
     return std::abs(p_m.x() - 3.0) < 0.1 ? Occupancy::occupied : Occupancy::free;
