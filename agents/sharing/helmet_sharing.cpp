@@ -80,6 +80,7 @@ void HelmetSharing::step() {
   // Own tiles first: what others lack of these nobody else can send.
   speak(now);
   exchange_.step(now, clock_.wall_now(), roster_, map_.store(), link_);
+  publisher_.outrank(exchange_.take_newer_elsewhere());
   map_.update();
 }
 

@@ -29,7 +29,29 @@ Result<void> TilePublisher::step(SteadyTime now, Timestamp wall_now, ReplicaStor
     if (!link.allows(Traffic::tile)) break;
     if (auto sent = publish(next, now, wall_now, store, link); !sent) return sent;
   }
+  if (auto sent = publish_outranked(now, wall_now, store, link); !sent) return sent;
   return publish_again(wall_now, link);
+}
+
+void TilePublisher::outrank(const std::map<TileIndex, Revision>& elsewhere) {
+  for (const auto& [tile, revision] : elsewhere) {
+    if (revision > newest_before_) continue;  // no process of ours can have given it
+    const auto known = newest_revisions_.find(tile);
+    if (known == newest_revisions_.end() || known->second < revision) outranked_.insert(tile);
+  }
+}
+
+Result<void> TilePublisher::publish_outranked(SteadyTime now, Timestamp wall_now,
+                                              ReplicaStore& store, LinkBudget& link) {
+  while (!outranked_.empty() && link.allows(Traffic::tile)) {
+    const TileIndex tile = *outranked_.begin();
+    const ReplicaTile* held = store.find(layer_, tile);
+    auto cells = held != nullptr ? held->cells : std::make_shared<const QuantisedTile>();
+    if (auto sent = publish({tile, std::move(cells)}, now, wall_now, store, link); !sent)
+      return sent;
+    outranked_.erase(tile);
+  }
+  return {};
 }
 
 Result<void> TilePublisher::publish_again(Timestamp wall_now, LinkBudget& link) {

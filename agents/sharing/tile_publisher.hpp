@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "agents/sharing/changed_tiles.hpp"
@@ -38,6 +39,11 @@ class TilePublisher {
   /// `scanned_at`: when the oldest scan was taken that is new in them.
   void put(const MapTiles& tiles, SteadyTime scanned_at = {}) { changed_.put(tiles, scanned_at); }
 
+  /// Publishes tiles anew that others hold at such revisions, where a process before this one gave
+  /// them and this one does not know them. A tile that it does not know at all becomes an unknown
+  /// one.
+  void outrank(const std::map<TileIndex, Revision>& elsewhere);
+
   /// Hears of each revision that left, and when the oldest scan was taken that it is the first to
   /// hold.
   using Listener = std::function<void(TileIndex, Revision, SteadyTime scanned_at)>;
@@ -51,11 +57,15 @@ class TilePublisher {
   [[nodiscard]] Result<void> step(SteadyTime now, Timestamp wall_now, ReplicaStore& store,
                                   LinkBudget& link);
 
-  [[nodiscard]] std::size_t waiting() const { return changed_.waiting() + again_.size(); }
+  [[nodiscard]] std::size_t waiting() const {
+    return changed_.waiting() + again_.size() + outranked_.size();
+  }
 
  private:
   [[nodiscard]] Result<void> publish(const ChangedTiles::Due& due, SteadyTime now,
                                      Timestamp wall_now, ReplicaStore& store, LinkBudget& link);
+  [[nodiscard]] Result<void> publish_outranked(SteadyTime now, Timestamp wall_now,
+                                               ReplicaStore& store, LinkBudget& link);
   [[nodiscard]] Result<void> publish_again(Timestamp wall_now, LinkBudget& link);
   [[nodiscard]] Result<void> send(std::vector<wire::TsdTile> parts, Timestamp wall_now,
                                   LinkBudget& link);
@@ -68,6 +78,7 @@ class TilePublisher {
   std::map<TileIndex, Revision> newest_revisions_;
   Revision newest_before_{};  ///< that any process before this one may have given
   std::map<TileIndex, KeptTile> again_;
+  std::set<TileIndex> outranked_;
   Listener listener_;
 };
 

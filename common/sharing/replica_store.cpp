@@ -97,6 +97,13 @@ const ReplicaLayer* ReplicaStore::find(const LayerKey& layer) const {
   return found == layers_.end() ? nullptr : &found->second;
 }
 
+const ReplicaTile* ReplicaStore::find(const LayerKey& layer, TileIndex tile) const {
+  const ReplicaLayer* tiles = find(layer);
+  if (tiles == nullptr) return nullptr;
+  const auto found = tiles->find(tile);
+  return found == tiles->end() ? nullptr : &found->second;
+}
+
 std::vector<ReplicaStore::ChangedTile> ReplicaStore::take_changed() {
   return std::exchange(changed_, {});
 }

@@ -73,6 +73,7 @@ class ReplicaStore {
   [[nodiscard]] const std::map<LayerKey, ReplicaLayer>& layers() const { return layers_; }
   /// nullptr where nothing is held.
   [[nodiscard]] const ReplicaLayer* find(const LayerKey& layer) const;
+  [[nodiscard]] const ReplicaTile* find(const LayerKey& layer, TileIndex tile) const;
 
   /// What changed since the last call, each tile once for each change.
   [[nodiscard]] std::vector<ChangedTile> take_changed();

@@ -10,7 +10,7 @@ TileExchange::TileExchange(ExchangeConfig config, ExchangeChannels channels)
     : config_(std::move(config)),
       channels_(std::move(channels)),
       asker_(config_.speaker.id, config_.own_layer, config_.asker),
-      server_(config_.speaker, config_.share_bit_s, *channels_.send),
+      server_(config_.speaker, config_.own_layer, config_.share_bit_s, *channels_.send),
       request_stamper_(config_.speaker) {}
 
 void TileExchange::step(SteadyTime now, Timestamp wall_now, const Roster& roster,

@@ -37,6 +37,10 @@ class TileExchange {
   [[nodiscard]] std::size_t layers_behind(SteadyTime now) const {
     return asker_.layers_behind(now);
   }
+  /// As TileServer.
+  [[nodiscard]] std::map<TileIndex, Revision> take_newer_elsewhere() {
+    return server_.take_newer_elsewhere();
+  }
   /// Tiles that others wait for.
   [[nodiscard]] std::size_t waiting() const { return server_.waiting(); }
   [[nodiscard]] std::uint64_t refused() const;

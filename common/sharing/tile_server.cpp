@@ -1,14 +1,19 @@
 #include "common/sharing/tile_server.hpp"
 
-#include <map>
+#include <algorithm>
 
 #include "common/sharing/accept.hpp"
 #include "common/sharing/tile_samples.hpp"
 
 namespace lifeline::sharing {
 
-TileServer::TileServer(Speaker speaker, double share_bit_s, wire::Outbox<wire::TileCopy>& outbox)
-    : self_(speaker.id), stamper_(std::move(speaker)), bucket_(share_bit_s), outbox_(outbox) {}
+TileServer::TileServer(Speaker speaker, std::optional<LayerKey> own_layer, double share_bit_s,
+                       wire::Outbox<wire::TileCopy>& outbox)
+    : self_(speaker.id),
+      own_layer_(std::move(own_layer)),
+      stamper_(std::move(speaker)),
+      bucket_(share_bit_s),
+      outbox_(outbox) {}
 
 Result<void> TileServer::take(const wire::TileRequest& request, const ReplicaStore& store) {
   if (request.asked_id != self_.text() || request.requester_id == self_.text()) return {};
@@ -22,6 +27,7 @@ Result<void> TileServer::take(const wire::TileRequest& request, const ReplicaSto
   std::map<TileIndex, Revision> held;
   for (const auto& tile : request.held) held[{tile.x, tile.y}] = Revision{tile.revision_held};
   const ReplicaLayer* tiles = store.find(*layer);
+  if (own_layer_ == *layer) note_newer(held, store);
   if (tiles == nullptr) return {};
   for (auto tile = tiles->upper_bound(after); tile != tiles->end() && tile->first <= to; ++tile) {
     if (const auto theirs = held.find(tile->first);
@@ -35,6 +41,17 @@ Result<void> TileServer::take(const wire::TileRequest& request, const ReplicaSto
     waiting_.emplace(*layer, tile->first);
   }
   return {};
+}
+
+void TileServer::note_newer(const std::map<TileIndex, Revision>& theirs,
+                            const ReplicaStore& store) {
+  for (const auto& [tile, revision] : theirs) {
+    const ReplicaTile* held = store.find(*own_layer_, tile);
+    if (held != nullptr && held->revision >= revision) continue;
+    if (newer_elsewhere_.size() >= kMaxWaiting) return;
+    Revision& newest = newer_elsewhere_[tile];
+    newest = std::max(newest, revision);
+  }
 }
 
 Result<void> TileServer::step(SteadyTime now, Timestamp wall_now, const ReplicaStore& store,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -22,11 +24,19 @@ class TileServer {
   static constexpr std::size_t kMaxWaiting = ReplicaStore::kMaxTilesPerLayer;
 
   /// `share_bit_s`: most payload of tiles that are sent again.
-  TileServer(Speaker speaker, double share_bit_s, wire::Outbox<wire::TileCopy>& outbox);
+  /// `own_layer`: a helmet's; empty: a coordinator.
+  TileServer(Speaker speaker, std::optional<LayerKey> own_layer, double share_bit_s,
+             wire::Outbox<wire::TileCopy>& outbox);
 
   /// Notes what a request lacks. An error (unknown layer name, ends in the wrong order, too much
   /// asked for) names it. Requests to others are none of our business.
   [[nodiscard]] Result<void> take(const wire::TileRequest& request, const ReplicaStore& store);
+
+  /// Tiles of the own layer that somebody holds newer than this participant does, as they say: of a
+  /// process before this one, whose disk took no more (docs/decisions/0601). Since the last call.
+  [[nodiscard]] std::map<TileIndex, Revision> take_newer_elsewhere() {
+    return std::exchange(newer_elsewhere_, {});
+  }
 
   /// Sends what the budget allows. An error names the sample that the middleware refused; the
   /// requester will ask again.
@@ -39,11 +49,15 @@ class TileServer {
   [[nodiscard]] Result<void> send(const LayerKey& layer, TileIndex tile, Timestamp wall_now,
                                   const ReplicaStore& store, LinkBudget& link);
 
+  void note_newer(const std::map<TileIndex, Revision>& theirs, const ReplicaStore& store);
+
   AgentId self_;
+  std::optional<LayerKey> own_layer_;
   EnvelopeStamper stamper_;
   TokenBucket bucket_;
   wire::Outbox<wire::TileCopy>& outbox_;
   std::set<std::pair<LayerKey, TileIndex>> waiting_;
+  std::map<TileIndex, Revision> newer_elsewhere_;
 };
 
 }  // namespace lifeline::sharing

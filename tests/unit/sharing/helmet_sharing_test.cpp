@@ -1,4 +1,5 @@
 #include "common/wire/coarse_cells.hpp"
+#include "common/wire/tile_codec.hpp"
 #include "tests/unit/sharing/helmet_sharing_fixture.hpp"
 
 namespace lifeline::sharing {
@@ -194,6 +195,39 @@ TEST_F(MissionJoinTest, OfTwoThatStartAtOnceExactlyOneStays) {
   ASSERT_TRUE(small_answer && large_answer);
   EXPECT_TRUE(small_answer->has_value());
   EXPECT_FALSE(large_answer->has_value());
+}
+
+// It was killed while its disk took nothing: others hold a newer tile than it goes on with, and one
+// that it has never heard of.
+TEST_F(HelmetSharingTest, OneThatGoesOnFromAnOlderStateOutranksWhatItDoesNotKnow) {
+  auto alpha = make_helmet("alpha"), bravo = make_helmet("bravo");
+  const MapTiles old = random_tiles({{0, 0}, {1, 0}});
+  alpha->put(old);
+  run({alpha.get(), bravo.get()});
+  SharingMemory memory;
+  for (const auto& [tile, cells] : old) {
+    const Revision revision = alpha->map().store().find(layer("alpha"))->at(tile).revision;
+    memory.layers[layer("alpha")][tile] = {revision, wire::encode_tile(*cells, {}), cells};
+  }
+  memory.newest_before = Revision{1 << 24};
+  alpha->put(random_tiles({{1, 0}, {2, 0}}));
+  run({alpha.get(), bravo.get()});
+  alpha.reset();
+
+  alpha = make_helmet("alpha", 2);
+  ASSERT_TRUE(alpha->resume(memory));
+  run({alpha.get(), bravo.get()}, std::chrono::seconds(20));
+  const ReplicaLayer& own = *alpha->map().store().find(layer("alpha"));
+  const ReplicaLayer& held = *bravo->map().store().find(layer("alpha"));
+  ASSERT_EQ(own.size(), 3U);
+  ASSERT_EQ(held.size(), 3U);
+  for (const auto& [tile, replica] : own) {
+    EXPECT_EQ(held.at(tile).revision, replica.revision);
+    EXPECT_EQ(*held.at(tile).cells, *replica.cells);
+  }
+  EXPECT_LT(held.at({0, 0}).revision, memory.newest_before) << "was known: not said again";
+  EXPECT_EQ(*held.at({1, 0}).cells, *old[1].second);
+  EXPECT_EQ(*held.at({2, 0}).cells, QuantisedTile{});
 }
 
 }  // namespace

@@ -183,7 +183,7 @@ class TileServerTest : public testing::Test, public wire::Outbox<wire::TileCopy>
   SteadyTime now_{std::chrono::hours(1)};
   LinkBudget link_{1e9, [] { return std::uint64_t{0}; }};
   TileServer server_{
-      {AgentId::parse("charlie").value(), test::kMission, Incarnation{1}}, 1e9, *this};
+      {AgentId::parse("charlie").value(), test::kMission, Incarnation{1}}, {}, 1e9, *this};
 };
 
 TEST_F(TileServerTest, SendsWhatIsNewerOrNotListed) {
@@ -207,6 +207,19 @@ TEST_F(TileServerTest, SendsOnceWhatIsAskedForTwice) {
   EXPECT_THAT(sent_, SizeIs(3));
 }
 
+TEST_F(TileServerTest, OfItsOwnLayerNotesWhatOthersHoldNewer) {
+  TileServer owner({AgentId::parse("bravo").value(), test::kMission, Incarnation{1}},
+                   layer("bravo"), 1e9, *this);
+  auto listed = request({{0, 0, 5}, {1, 0, 6}, {2, 0, 4}, {7, 7, 1}});
+  listed.asked_id = "bravo";
+  ASSERT_TRUE(owner.take(listed, store_));
+  const std::map<TileIndex, Revision> newer{{{1, 0}, Revision{6}}, {{7, 7}, Revision{1}}};
+  EXPECT_EQ(owner.take_newer_elsewhere(), newer);
+  EXPECT_TRUE(owner.take_newer_elsewhere().empty()) << "said once";
+  ASSERT_TRUE(server_.take(request({{1, 0, 6}}), store_));
+  EXPECT_TRUE(server_.take_newer_elsewhere().empty()) << "another's layer";
+}
+
 TEST_F(TileServerTest, LeavesRequestsToOthersAlone) {
   auto to_another = request({});
   to_another.asked_id = "delta";
@@ -221,7 +234,8 @@ TEST_F(TileServerTest, RefusesAStretchThatEndsBeforeItBegins) {
 }
 
 TEST_F(TileServerTest, KeepsToItsShare) {
-  TileServer poor({AgentId::parse("charlie").value(), test::kMission, Incarnation{1}}, 1.0, *this);
+  TileServer poor({AgentId::parse("charlie").value(), test::kMission, Incarnation{1}}, {}, 1.0,
+                  *this);
   ASSERT_TRUE(poor.take(request({}), store_));
   for (int i = 0; i < 20; ++i) {
     now_ += milliseconds(100);
