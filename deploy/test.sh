@@ -27,10 +27,10 @@ build() {  # PRESET [TARGET...]
     cmake --build --preset "$preset" -j "$jobs" ${1:+--target "$@"}
 }
 
-run_tests() {  # PRESET [CTEST OPTIONS...]
-  local preset="$1"
-  shift
-  ctest --preset "$preset" -j "$jobs" --no-tests=error "$@" | tee "build/$preset-tests.log"
+run_tests() {  # PRESET JOBS [CTEST OPTIONS...]
+  local preset="$1" at_once="$2"
+  shift 2
+  ctest --preset "$preset" -j "$at_once" --no-tests=error "$@" | tee "build/$preset-tests.log"
   return "${PIPESTATUS[0]}"
 }
 
@@ -62,12 +62,12 @@ run_fuzzers() {
 phase "packages" deploy/setup.sh
 jobs="$(parallel_jobs)"
 phase "build (dev)" build dev
-phase "tests (dev)" run_tests dev
+phase "tests (dev)" run_tests dev "$((jobs + 1))"  # real processes wait for each other
 if [[ "$deep" == yes ]]; then
   phase "build (address and undefined behaviour sanitizers, fuzz targets)" build asan-ubsan lifeline_inner_tests lifeline_fuzzers
-  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan -LE 'system|bench|planted' -E "$repetitions|_NOT_BUILT"
+  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan "$jobs" -LE 'system|bench|planted' -E "$repetitions|_NOT_BUILT"
   phase "build (thread sanitizer)" build tsan lifeline_thread_tests
-  phase "tests (thread sanitizer)" run_tests tsan -L threads
+  phase "tests (thread sanitizer)" run_tests tsan "$jobs" -L threads
   phase "fuzz targets" run_fuzzers
 fi
 

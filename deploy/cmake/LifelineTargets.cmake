@@ -21,9 +21,11 @@ endif()
 
 # Sources of a target in batches: headers are parsed, and what they inline is compiled, once a batch. A source that forgets
 # an include, or whose internal names clash with another's, shows only where it is compiled alone: `dev` does so for all
-# but tests.
-function(lifeline_batch target kind)
-  if(LIFELINE_BATCHES STREQUAL "all" OR (LIFELINE_BATCHES STREQUAL "tests" AND kind STREQUAL "test"))
+# outside tests/.
+function(lifeline_batch target)
+  set(tests_dir "${PROJECT_SOURCE_DIR}/tests")
+  cmake_path(IS_PREFIX tests_dir "${CMAKE_CURRENT_SOURCE_DIR}" is_of_tests)
+  if(LIFELINE_BATCHES STREQUAL "all" OR (LIFELINE_BATCHES STREQUAL "tests" AND is_of_tests))
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()
@@ -43,7 +45,7 @@ function(lifeline_library name)
   target_include_directories(lifeline_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(lifeline_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   lifeline_warnings(lifeline_${name})
-  lifeline_batch(lifeline_${name} library)
+  lifeline_batch(lifeline_${name})
 endfunction()
 
 # lifeline_program(NAME SOURCES a.cpp ... LINK libs...): program NAME in build/<preset>/bin.
@@ -54,7 +56,7 @@ function(lifeline_program name)
   target_link_libraries(${name} PRIVATE ${arg_LINK})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
   lifeline_warnings(${name})
-  lifeline_batch(${name} program)
+  lifeline_batch(${name})
 endfunction()
 
 function(lifeline_add_to_group group name)
@@ -86,7 +88,7 @@ function(lifeline_test name)
   target_compile_definitions(${name} PRIVATE
     LIFELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LIFELINE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   lifeline_warnings(${name})
-  lifeline_batch(${name} test)
+  lifeline_batch(${name})
   target_compile_options(${name} PRIVATE ${LIFELINE_TEST_FLAGS})
   if(threads IN_LIST arg_LABELS)  # the ones that the thread sanitizer build is for
     lifeline_add_to_group(lifeline_thread_tests ${name})
