@@ -91,8 +91,8 @@ void WalkableFloor::add_walked(const Eigen::Vector2d& trail_m,
   if (free_m) {
     const CellIndex block = cell_at(*free_m, block_size_m());
     walked_.try_emplace(block, Walked{*free_m, {}});
-    // Where the map has another mind by now (drift, a door that shut), the trail may lie in a wall,
-    // with free cells nearest to it on either side: no way leads from one to the other.
+    // Between its points, and where the map has another mind by now (drift, a door that shut), the
+    // trail may cross a wall, with free cells nearest to it on either side: no way leads through.
     if (before_m && (*free_m - *before_m).norm() < kBesideCells * map_.cell_size_m())
       join(cell_at(*before_m, block_size_m()), block);
   }

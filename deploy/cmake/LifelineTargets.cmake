@@ -89,7 +89,9 @@ function(lifeline_test name)
     LIFELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LIFELINE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   lifeline_warnings(${name})
   lifeline_batch(${name})
-  target_compile_options(${name} PRIVATE ${LIFELINE_TEST_FLAGS})
+  if(NOT property IN_LIST arg_LABELS)  # these hold slow reference code
+    target_compile_options(${name} PRIVATE ${LIFELINE_TEST_FLAGS})
+  endif()
   if(threads IN_LIST arg_LABELS)  # the ones that the thread sanitizer build is for
     lifeline_add_to_group(lifeline_thread_tests ${name})
   endif()

@@ -59,8 +59,8 @@ TEST_P(HudOnAWalk, TheWayOutIsKnownAndLeadsOverFloorThatWasSeen) {
     EXPECT_FALSE(is_off_the_floor(core.map(), way.points)) << "after scan " << scan;
   }
   EXPECT_GE(looks, 50);
-  // The rest by the own trail: through doors that the map shows closed again.
-  EXPECT_GE(free_ways, looks / 2) << "of " << looks;
+  // The rest by the own trail, which crosses what the map takes for walls.
+  EXPECT_GE(free_ways, looks / 5) << "of " << looks;
 }
 
 INSTANTIATE_TEST_SUITE_P(
