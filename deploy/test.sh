@@ -34,16 +34,16 @@ run_tests() {  # PRESET JOBS [CTEST OPTIONS...]
   return "${PIPESTATUS[0]}"
 }
 
-# One fuzz target for a while, on what it found in earlier runs (build/asan-ubsan/fuzz/corpus/).
+# One fuzz target for a while, on what it found in earlier runs (build/fuzz/corpus/).
 run_fuzzer() {  # NAME
   local name="$1"
-  local seeds="tests/fuzz/${name%_fuzz}/seeds" log="build/asan-ubsan/fuzz/$name.log"
+  local seeds="tests/fuzz/${name%_fuzz}/seeds" log="build/fuzz/$name.log"
   [[ -d "$seeds" ]] || seeds=""
-  mkdir -p "build/asan-ubsan/fuzz/corpus/$name" "build/asan-ubsan/fuzz/failures"
-  if ! "build/asan-ubsan/bin/$name" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
-    -artifact_prefix="build/asan-ubsan/fuzz/failures/$name-" "build/asan-ubsan/fuzz/corpus/$name" ${seeds:+"$seeds"} >"$log" 2>&1; then
+  mkdir -p "build/fuzz/corpus/$name" "build/fuzz/failures"
+  if ! "build/fuzz/bin/$name" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/failures/$name-" "build/fuzz/corpus/$name" ${seeds:+"$seeds"} >"$log" 2>&1; then
     tail -n 40 "$log"
-    echo "$name: failed; its input is in build/asan-ubsan/fuzz/failures/"
+    echo "$name: failed; its input is in build/fuzz/failures/"
     return 1
   fi
   printf '%s: %s runs in %d s, nothing found\n' "$name" \
@@ -52,7 +52,7 @@ run_fuzzer() {  # NAME
 
 run_fuzzers() {
   local names
-  names="$(find build/asan-ubsan/bin -name '*_fuzz' -printf '%f\n' | sort)"
+  names="$(find build/fuzz/bin -name '*_fuzz' -printf '%f\n' | sort)"
   [[ -n "$names" ]] || { echo "no fuzz target was built"; return 1; }
   export -f run_fuzzer
   export fuzz_seconds
@@ -64,10 +64,11 @@ jobs="$(parallel_jobs)"
 phase "build (dev)" build dev
 phase "tests (dev)" run_tests dev "$((jobs + 1))"  # real processes wait for each other
 if [[ "$deep" == yes ]]; then
-  phase "build (address and undefined behaviour sanitizers, fuzz targets)" build asan-ubsan lifeline_inner_tests lifeline_fuzzers
+  phase "build (address and undefined behaviour sanitizers)" build asan-ubsan lifeline_inner_tests
   phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan "$jobs" -LE 'system|bench|planted' -E "$repetitions|_NOT_BUILT"
   phase "build (thread sanitizer)" build tsan lifeline_thread_tests
   phase "tests (thread sanitizer)" run_tests tsan "$jobs" -L threads
+  phase "build (fuzz targets)" build fuzz lifeline_fuzzers
   phase "fuzz targets" run_fuzzers
 fi
 
