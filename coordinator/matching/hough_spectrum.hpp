@@ -16,6 +16,8 @@ namespace lifeline::matching {
 using Spectrum = std::vector<double>;
 
 inline constexpr std::size_t kSpectrumBinsPerDegree = 1;
+/// Bins between two peaks of a correlation of spectra that count as different rotations.
+inline constexpr std::size_t kRotationSeparation = 4 * kSpectrumBinsPerDegree;
 
 /// The paper's spectrum over half a circle, of the occupied cells.
 [[nodiscard]] Spectrum hough_spectrum(const OccupancyGrid& preprocessed);

@@ -27,7 +27,6 @@ constexpr std::size_t kReported = 4;
 constexpr double kHopefulRough = 0.15;
 constexpr double kHopefulCoarse = 0.30;
 constexpr std::size_t kAlwaysRefined = 2;  ///< so that there is a second to compare with
-constexpr std::size_t kRotationSeparation = 4 * kSpectrumBinsPerDegree;
 /// In the correlation positions are rough, and so are conflicts: they count less than at the end.
 constexpr float kSearchConflictWeight = 1.5F;
 constexpr WallGate kSearchGate{0.25F, 0.80F};

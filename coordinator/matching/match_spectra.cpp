@@ -16,7 +16,6 @@
 namespace lifeline::matching {
 namespace {
 
-constexpr std::size_t kPeakSeparation = 4 * kSpectrumBinsPerDegree;
 constexpr std::size_t kShiftsPerAxis = 2;
 constexpr int kShiftSeparation = 10;  // cells
 constexpr std::size_t kReportedBySpectra = 6;
@@ -76,7 +75,7 @@ MatchResult match_spectra(const MapFeatures& a, const MapFeatures& b, const Matc
                           (a.cell_size_m * a.cell_size_m);
   std::vector<Hypothesis> hypotheses;
   const std::size_t peaks = std::max<std::size_t>(1, config.rotation_candidates / 2);
-  for (const SpectrumPeak& peak : circular_maxima(correlation, kPeakSeparation, peaks)) {
+  for (const SpectrumPeak& peak : circular_maxima(correlation, kRotationSeparation, peaks)) {
     for (const double half_turn : {0.0, std::numbers::pi}) {
       add_translations(problem, radians(peak.bin) + half_turn, s0_cells, hypotheses);
     }
