@@ -89,9 +89,8 @@ function(lifeline_test name)
     LIFELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LIFELINE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   lifeline_warnings(${name})
   lifeline_batch(${name})
-  if(NOT property IN_LIST arg_LABELS)  # these hold slow reference code
-    target_compile_options(${name} PRIVATE ${LIFELINE_TEST_FLAGS})
-  endif()
+  # Not -O0: where they meet, the linker takes these objects' inline functions for the library's, too.
+  target_compile_options(${name} PRIVATE ${LIFELINE_TEST_FLAGS})
   if(threads IN_LIST arg_LABELS)  # the ones that the thread sanitizer build is for
     lifeline_add_to_group(lifeline_thread_tests ${name})
   endif()
