@@ -129,6 +129,7 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
   if (closer) finish(*closer, slam, run);
   slam.time_stages(nullptr);
   run.revisited = slam.revisit();
+  slam.smooth_trajectory();
   run.trajectory = slam.trajectory();
   run.loops = closer ? closer->loops() : 0;
   return run;

@@ -11,6 +11,10 @@ constexpr double kLongestStep_s = 0.5;
 
 /// Share of the newest interval in the usual one.
 constexpr double kIntervalShare = 0.1;
+/// The same where the scans stopped for a while: that alone makes no keyframes of them.
+constexpr double kGapShare = 0.02;
+/// Scans that usually come this fast come from a lidar at work.
+constexpr double kLiveInterval_s = 0.2;
 
 bool is_live(Duration elapsed) {
   return elapsed > Duration{0} && to_seconds(elapsed) <= kLongestStep_s;
@@ -81,11 +85,19 @@ void MotionModel::lost(const Prediction& prediction, const MotionPrior& prior) {
   sigma_yaw_rad_ = prediction.sigma_yaw_rad;
 }
 
+bool MotionModel::is_lidar_at_work() const {
+  return interval_s_ > 0.0 && interval_s_ <= kLiveInterval_s;
+}
+
+bool MotionModel::is_gap(Duration elapsed) const {
+  return is_lidar_at_work() && to_seconds(elapsed) > kLongestStep_s;
+}
+
 void MotionModel::note_interval(Duration elapsed) {
   if (elapsed <= Duration{0}) return;
   const double seconds = std::min(to_seconds(elapsed), kLongestStep_s);
-  interval_s_ =
-      interval_s_ == 0.0 ? seconds : interval_s_ + kIntervalShare * (seconds - interval_s_);
+  const double share = is_gap(elapsed) ? kGapShare : kIntervalShare;
+  interval_s_ = interval_s_ == 0.0 ? seconds : interval_s_ + share * (seconds - interval_s_);
 }
 
 }  // namespace lifeline::slam

@@ -54,6 +54,11 @@ class MotionModel {
   void lost(const Prediction& prediction, const MotionPrior& prior);
 
   [[nodiscard]] const Pose2& pose() const { return T_map_head_; }
+  /// Scans usually come several a second, not as keyframes.
+  [[nodiscard]] bool is_lidar_at_work() const;
+  /// Scans that come several a second stopped for so long that the wearer may be anywhere near.
+  /// Keyframes, which come seldom, have no gaps.
+  [[nodiscard]] bool is_gap(Duration elapsed) const;
 
  private:
   void note_interval(Duration elapsed);

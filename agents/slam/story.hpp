@@ -22,6 +22,8 @@ struct UnsettledScan {
   Scan2 scan;
   std::vector<SurfacePiece> pieces;  ///< of the scan
   double reach_m = 0.0;              ///< of its farthest hit
+  /// Only a walker's usual motion leads here: no odometry, no keyframe's leap.
+  bool is_walked = false;
 };
 
 /// A scan's place in one story.

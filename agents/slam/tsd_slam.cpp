@@ -35,6 +35,7 @@ TsdSlam::TsdSlam(SlamConfig config, GridGeometry geometry)
 SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior, bool is_doubtful) {
   take_in(raw, prior);
   if (!started_) return start();
+  if (!lost_) bridge_gap(prior);
   if (lost_) return step_lost(prior);
 
   std::vector<Story> longer;
@@ -66,7 +67,8 @@ void TsdSlam::take_in(const Scan2& raw, const MotionPrior& prior) {
   deskew(scan, stories_.front().motion.predicted_step(prior), prior.elapsed);
   auto pieces = extract_surface(scan, config_.surface);
   const double reach_m = reach_of(pieces);
-  unsettled_.push_back({std::move(scan), std::move(pieces), reach_m});
+  const bool is_walked = !prior.T_previous_now && stories_.front().motion.is_lidar_at_work();
+  unsettled_.push_back({std::move(scan), std::move(pieces), reach_m, is_walked});
 }
 
 void TsdSlam::time_stages(StageTimes* times) {
@@ -80,14 +82,14 @@ SlamStep TsdSlam::start() {
   unsettled_.clear();
   step.evidence.points = static_cast<int>(scan.pieces.size());
   if (step.evidence.points < config_.min_model_points) {
-    settled_.push_back({scan.scan.stamp, 0, {}});
+    settled_.push_back({scan.scan.stamp, 0, {}, certain_fix()});
     return step;
   }
   started_ = true;
   trust_percent_ = 100;
   push(scan.pieces, {}, scan.scan.stamp);
   keyframes_.keep(scan.scan.stamp, {}, Eigen::Matrix3d::Zero(), scan.pieces);
-  settled_.push_back({scan.scan.stamp, 1, {}});
+  settled_.push_back({scan.scan.stamp, 1, {}, certain_fix()});
   previous_pieces_ = scan.pieces;
   step.verdict = Verdict::accepted;
   step.source = PoseSource::start;

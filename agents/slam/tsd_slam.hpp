@@ -13,6 +13,7 @@
 #include "agents/slam/map_tracker.hpp"
 #include "agents/slam/model_matcher.hpp"
 #include "agents/slam/motion_model.hpp"
+#include "agents/slam/path_smoother.hpp"
 #include "agents/slam/relocaliser.hpp"
 #include "agents/slam/slam_types.hpp"
 #include "agents/slam/stage_times.hpp"
@@ -110,6 +111,9 @@ class TsdSlam {
   /// Looks once more for a place for the scans that found none, now that the map holds what came
   /// after them. How many found one.
   int revisit();
+  /// Where a scan saw little along some direction, moves its place to where the scans before and
+  /// after say that the head went. Once, after the last scan; layer and keyframes stay.
+  void smooth_trajectory();
   /// The keyframes since the last call, in order.
   [[nodiscard]] std::vector<Keyframe> take_keyframes() { return keyframes_.take(); }
   /// Takes over a corrected past: the layer as drawn anew, the scans since then on top, the present
@@ -133,6 +137,7 @@ class TsdSlam {
     Timestamp stamp{};
     std::size_t keyframes = 0;  ///< so many were kept up to here
     Pose2 T_keyframe_head;  ///< from the last of them; from the map's origin, where there is none
+    PositionFix fix;        ///< in the map as it was when the scan was settled
   };
 
   void take_in(const Scan2& raw, const MotionPrior& prior);
@@ -148,6 +153,8 @@ class TsdSlam {
   void recover(MatchResult& match, MotionModel& motion) const;
   void note_match(const MotionPrior& prior);
   [[nodiscard]] SlamStep step_lost(const MotionPrior& prior);
+  void bridge_gap(const MotionPrior& prior);
+  void look_round(const Pose2& T_map_head, Duration unseen, double sigma_yaw_rad);
   void reckon(const MotionPrior& prior, const std::optional<Pose2>& T_previous_now);
   void add_heading_doubt(const MotionPrior& prior);
   void extend(const Story& story, const MotionPrior& prior, std::vector<Story>& longer);
@@ -160,7 +167,7 @@ class TsdSlam {
   int settle(std::size_t most_unsettled);
   [[nodiscard]] Pose2 pose_of(const SettledScan& scan) const;
   [[nodiscard]] bool settle_scan(const UnsettledScan& scan, const StoryStep& step);
-  void note_settled(Timestamp stamp, const Pose2& T_map_head);
+  void note_settled(Timestamp stamp, const Pose2& T_map_head, const PositionFix& fix);
   [[nodiscard]] double since_push_s(Timestamp stamp) const;
   [[nodiscard]] bool push_is_due(const Pose2& T_map_head, Timestamp stamp) const;
   void push(std::span<const SurfacePiece> pieces, const Pose2& T_map_head, Timestamp stamp);

@@ -96,7 +96,7 @@ SlamStep TsdSlam::step_lost(const MotionPrior& prior) {
   step.T_map_head = motion.pose();
   step.trust_percent = trust_percent_;
   previous_pieces_ = scan.pieces;
-  note_settled(scan.scan.stamp, step.T_map_head);
+  note_settled(scan.scan.stamp, step.T_map_head, certain_fix());
   return step;
 }
 
@@ -123,15 +123,38 @@ void TsdSlam::resume(TsdGrid layer, std::optional<LastPlace> last) {
   started_ = resumed_ = true;
   heading_variance_ = std::numbers::pi * std::numbers::pi;
   if (last) {
-    last_ = Whereabouts{last->T_map_head,
-                        config_.relocalise.stayed_m + config_.fastest_m_s * to_seconds(last->ago)};
-    stories_.front().motion.reset(last->T_map_head);
-    const double walked_m = config_.walked_m_s * to_seconds(last->ago);
-    if (kReachedSigmas * walked_m <= config_.search.max_window_m) {
-      stories_.front().motion.doubt(walked_m, config_.motion.lost_max_yaw_rad);
-      recovering_ = true;
-      return;
-    }
+    look_round(last->T_map_head, last->ago, config_.motion.lost_max_yaw_rad);
+    return;
+  }
+  lost_ = true;
+  relocaliser_.begin(last_);
+}
+
+// Scans were missed, for want of time or of a working lidar: the wearer went on unseen, and what
+// lies nearest to the last place need not be the right one.
+void TsdSlam::bridge_gap(const MotionPrior& prior) {
+  const MotionModel& motion = stories_.front().motion;
+  if (prior.T_previous_now || !motion.is_gap(prior.elapsed)) return;
+  UnsettledScan scan = std::move(unsettled_.back());
+  unsettled_.pop_back();
+  settle(0);
+  unsettled_.push_back(std::move(scan));
+  stories_.erase(stories_.begin() + 1, stories_.end());
+  look_round(motion.pose(), prior.elapsed,
+             prior.yaw_step_rad ? 0.0 : config_.motion.lost_max_yaw_rad);
+  if (lost_) trust_percent_ = 0;
+}
+
+/// The helmet was at `T_map_head` and not seen since: near enough for a search, or lost.
+void TsdSlam::look_round(const Pose2& T_map_head, Duration unseen, double sigma_yaw_rad) {
+  const double unseen_s = to_seconds(unseen), walked_m = config_.walked_m_s * unseen_s;
+  last_ = Whereabouts{T_map_head, config_.relocalise.stayed_m + config_.fastest_m_s * unseen_s};
+  MotionModel& motion = stories_.front().motion;
+  motion.reset(T_map_head);
+  if (kReachedSigmas * walked_m <= config_.search.max_window_m) {
+    motion.doubt(walked_m, sigma_yaw_rad);
+    recovering_ = true;
+    return;
   }
   lost_ = true;
   relocaliser_.begin(last_);

@@ -45,13 +45,14 @@ bool TsdSlam::settle_scan(const UnsettledScan& scan, const StoryStep& step) {
       keyframes_.keep(scan.scan.stamp, T_map_head, step.match.evidence.covariance, scan.pieces);
     }
   }
-  note_settled(scan.scan.stamp, T_map_head);
+  note_settled(scan.scan.stamp, T_map_head,
+               scan.is_walked ? position_fix(step.match, step.prediction) : certain_fix());
   return pushes;
 }
 
-void TsdSlam::note_settled(Timestamp stamp, const Pose2& T_map_head) {
+void TsdSlam::note_settled(Timestamp stamp, const Pose2& T_map_head, const PositionFix& fix) {
   const Pose2 T_map_keyframe = keyframes_.size() == 0 ? Pose2{} : keyframes_.poses().back();
-  settled_.push_back({stamp, keyframes_.size(), T_map_keyframe.inverse() * T_map_head});
+  settled_.push_back({stamp, keyframes_.size(), T_map_keyframe.inverse() * T_map_head, fix});
 }
 
 void TsdSlam::settle_all() {
@@ -87,9 +88,25 @@ int TsdSlam::revisit() {
     if (match.verdict != Verdict::accepted) continue;
     scan.T_keyframe_head =
         scan.T_keyframe_head * (prediction.T_map_head.inverse() * match.T_map_head);
+    scan.fix = certain_fix();
     ++found;
   }
   return found;
+}
+
+void TsdSlam::smooth_trajectory() {
+  std::vector<PathPlace> path;
+  path.reserve(settled_.size());
+  for (const SettledScan& scan : settled_)
+    path.push_back({scan.stamp, pose_of(scan).translation(), scan.fix});
+  const std::vector<Eigen::Vector2d> smoothed = smooth_path(path);
+  for (std::size_t i = 0; i < settled_.size(); ++i) {
+    SettledScan& scan = settled_[i];
+    const Pose2 T_map_head = pose_of(scan);
+    const Pose2 T_keyframe_map = scan.T_keyframe_head * T_map_head.inverse();
+    scan.T_keyframe_head =
+        T_keyframe_map * Pose2{smoothed[i].x(), smoothed[i].y(), T_map_head.yaw_rad};
+  }
 }
 
 double TsdSlam::since_push_s(Timestamp stamp) const {

@@ -15,11 +15,11 @@ using sensing::Attitude;
 using sensing::MotionTracker;
 using sensing::RawScan;
 
-constexpr Duration kTenthSecond = std::chrono::milliseconds(100);
+constexpr Duration kScanTime = std::chrono::milliseconds(100);
 
 RawScan at(int tenths) {
   RawScan raw;
-  raw.stamp = Timestamp(kTenthSecond * tenths);
+  raw.stamp = Timestamp(kScanTime * tenths);
   return raw;
 }
 
@@ -44,7 +44,7 @@ TEST(MotionTracker, GivesDifferencesInTheFormerHeadsFrame) {
   raw.T_odom_head = Pose2{1.0, 2.5, M_PI / 2.0 + 0.1};
   raw.attitude = Attitude{0.0, 0.0, -3.1};
   const auto motion = tracker.next(raw);
-  EXPECT_EQ(motion.elapsed, kTenthSecond);
+  EXPECT_EQ(motion.elapsed, kScanTime);
   ASSERT_TRUE(motion.T_previous_now);
   EXPECT_NEAR(motion.T_previous_now->x_m, 0.5, 1e-12);
   EXPECT_NEAR(motion.T_previous_now->y_m, 0.0, 1e-12);
@@ -87,8 +87,8 @@ MotionPrior after(Duration elapsed) {
 TEST(MotionModel, RepeatsTheLastStepScaledByTime) {
   MotionModel model({});
   model.reset({});
-  model.matched({0.1, 0.0, 0.05}, after(kTenthSecond));
-  const Pose2 step = model.predicted_step(after(2 * kTenthSecond));
+  model.matched({0.1, 0.0, 0.05}, after(kScanTime));
+  const Pose2 step = model.predicted_step(after(2 * kScanTime));
   EXPECT_NEAR(step.x_m, 0.2, 1e-12);
   EXPECT_NEAR(step.yaw_rad, 0.1, 1e-12);
 }
@@ -96,8 +96,8 @@ TEST(MotionModel, RepeatsTheLastStepScaledByTime) {
 TEST(MotionModel, TakesTheYawStepFromTheAttitudeSensorAsEquation5Does) {
   MotionModel model({});
   model.reset({});
-  model.matched({0.1, 0.02, 0.05}, after(kTenthSecond));
-  MotionPrior prior = after(kTenthSecond);
+  model.matched({0.1, 0.02, 0.05}, after(kScanTime));
+  MotionPrior prior = after(kScanTime);
   prior.yaw_step_rad = -0.3;
   const Pose2 step = model.predicted_step(prior);
   EXPECT_NEAR(step.x_m, model.pose().inverse().x_m + 0.2, 0.2);  // a translation of that size
@@ -108,8 +108,8 @@ TEST(MotionModel, TakesTheYawStepFromTheAttitudeSensorAsEquation5Does) {
 TEST(MotionModel, OdometryOutranksTheLastStep) {
   MotionModel model({});
   model.reset({});
-  model.matched({0.1, 0.0, 0.0}, after(kTenthSecond));
-  MotionPrior prior = after(kTenthSecond);
+  model.matched({0.1, 0.0, 0.0}, after(kScanTime));
+  MotionPrior prior = after(kScanTime);
   prior.T_previous_now = Pose2{0.5, 0.1, 0.2};
   const Prediction prediction = model.predict(prior);
   EXPECT_NEAR(prediction.T_map_head.x_m, 0.6, 1e-12);
@@ -119,8 +119,8 @@ TEST(MotionModel, OdometryOutranksTheLastStep) {
 TEST(MotionModel, LessIsKnownAfterLongerTimes) {
   MotionModel model({});
   model.reset({});
-  const Prediction soon = model.predict(after(kTenthSecond));
-  const Prediction late = model.predict(after(3 * kTenthSecond));
+  const Prediction soon = model.predict(after(kScanTime));
+  const Prediction late = model.predict(after(3 * kScanTime));
   const Prediction never = model.predict(after(Duration{0}));
   EXPECT_LT(soon.sigma_xy_m, late.sigma_xy_m);
   EXPECT_LE(late.sigma_xy_m, never.sigma_xy_m);
@@ -130,9 +130,9 @@ TEST(MotionModel, LessIsKnownAfterLongerTimes) {
 TEST(MotionModel, AScanHardOnTheHeelsOfAnotherMayBeAsFarAwayAsUsual) {
   MotionModel model({});
   model.reset({});
-  for (int i = 0; i < 20; ++i) model.matched({}, after(4 * kTenthSecond));
-  const double usual_m = model.predict(after(4 * kTenthSecond)).sigma_xy_m;
-  EXPECT_NEAR(model.predict(after(kTenthSecond / 20)).sigma_xy_m, usual_m, 1e-9);
+  for (int i = 0; i < 20; ++i) model.matched({}, after(4 * kScanTime));
+  const double usual_m = model.predict(after(4 * kScanTime)).sigma_xy_m;
+  EXPECT_NEAR(model.predict(after(kScanTime / 20)).sigma_xy_m, usual_m, 1e-9);
 }
 
 TEST(MotionModel, UncertaintyGrowsWhileLostAndEndsWithAMatch) {
@@ -140,13 +140,13 @@ TEST(MotionModel, UncertaintyGrowsWhileLostAndEndsWithAMatch) {
   model.reset({});
   double before_m = 0.0;
   for (int i = 0; i < 5; ++i) {
-    const Prediction prediction = model.predict(after(kTenthSecond));
+    const Prediction prediction = model.predict(after(kScanTime));
     EXPECT_GT(prediction.sigma_xy_m, before_m);
     before_m = prediction.sigma_xy_m;
-    model.lost(prediction, after(kTenthSecond));
+    model.lost(prediction, after(kScanTime));
   }
-  model.matched(model.pose(), after(kTenthSecond));
-  EXPECT_LT(model.predict(after(kTenthSecond)).sigma_xy_m, before_m);
+  model.matched(model.pose(), after(kScanTime));
+  EXPECT_LT(model.predict(after(kScanTime)).sigma_xy_m, before_m);
 }
 
 TEST(Deskew, BringsASweepTakenInMotionBackToTheFirstBeam) {
@@ -155,7 +155,7 @@ TEST(Deskew, BringsASweepTakenInMotionBackToTheFirstBeam) {
   const support::Lidar lidar;
   const Pose2 motion{0.15, 0.03, 0.2};
   Scan2 swept;
-  swept.sweep_time = kTenthSecond;
+  swept.sweep_time = kScanTime;
   swept.full_circle = true;
   for (std::size_t i = 0; i < lidar.beams; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(lidar.beams - 1);
@@ -168,7 +168,7 @@ TEST(Deskew, BringsASweepTakenInMotionBackToTheFirstBeam) {
   for (const Beam2& beam : swept.beams) {
     worst_before = std::max(worst_before, world.distance({beam.x_m, beam.y_m}));
   }
-  deskew(swept, motion, kTenthSecond);
+  deskew(swept, motion, kScanTime);
   for (const Beam2& beam : swept.beams) {
     worst_after = std::max(worst_after, world.distance({beam.x_m, beam.y_m}));
     EXPECT_NEAR(beam.range_m, std::hypot(beam.x_m, beam.y_m), 1e-5);
@@ -180,10 +180,10 @@ TEST(Deskew, BringsASweepTakenInMotionBackToTheFirstBeam) {
 
 TEST(Deskew, LeavesTheTurnToTheAttitudeThatUndidIt) {
   Scan2 scan = support::scan_of(support::small_flat(), {});
-  scan.sweep_time = kTenthSecond;
+  scan.sweep_time = kScanTime;
   scan.turn_undone = true;
   const Scan2 before = scan;
-  deskew(scan, {0.1, 0.0, 0.5}, kTenthSecond);
+  deskew(scan, {0.1, 0.0, 0.5}, kScanTime);
   const std::size_t last = scan.beams.size() - 1;
   EXPECT_NEAR(scan.beams[last].x_m, before.beams[last].x_m + 0.1F, 1e-5);
   EXPECT_NEAR(scan.beams[last].y_m, before.beams[last].y_m, 1e-5);
@@ -192,13 +192,13 @@ TEST(Deskew, LeavesTheTurnToTheAttitudeThatUndidIt) {
 TEST(Deskew, LeavesScansAloneThatTookNoTimeOrCannotBeTrue) {
   const Scan2 scan = support::scan_of(support::small_flat(), {});
   Scan2 same = scan;
-  deskew(same, {0.1, 0.0, 0.1}, kTenthSecond);  // no sweep time
+  deskew(same, {0.1, 0.0, 0.1}, kScanTime);  // no sweep time
   EXPECT_EQ(same.beams[10].x_m, scan.beams[10].x_m);
-  same.sweep_time = kTenthSecond;
+  same.sweep_time = kScanTime;
   deskew(same, {0.1, 0.0, 0.1}, Duration{0});
-  deskew(same, {0.1, 0.0, 0.1}, -kTenthSecond);
-  deskew(same, {100.0, 0.0, 0.1}, kTenthSecond);
-  deskew(same, {0.1, 0.0, std::numeric_limits<double>::quiet_NaN()}, kTenthSecond);
+  deskew(same, {0.1, 0.0, 0.1}, -kScanTime);
+  deskew(same, {100.0, 0.0, 0.1}, kScanTime);
+  deskew(same, {0.1, 0.0, std::numeric_limits<double>::quiet_NaN()}, kScanTime);
   EXPECT_EQ(same.beams[10].x_m, scan.beams[10].x_m);
 }
 

@@ -79,12 +79,17 @@ class Walk {
     scan.stamp = Timestamp(kTenthSecond * scans_);
     MotionPrior prior;
     if (scans_ > 0) {
-      prior.elapsed = kTenthSecond;
+      prior.elapsed = (1 + std::exchange(missed_, 0)) * kTenthSecond;
       if (has_attitude) prior.yaw_step_rad = normalise_angle(way.at(k).yaw_rad - last_yaw_rad_);
     }
     ++scans_;
     last_yaw_rad_ = way.at(k).yaw_rad;
     return slam.step(scan, prior);
+  }
+  /// So many scans never reached it.
+  void miss(int scans) {
+    scans_ += scans;
+    missed_ += scans;
   }
   /// Distance to the truth, in a map that began at place 0 of the way.
   [[nodiscard]] double off_m(const SlamStep& step, int k) const {
@@ -105,6 +110,7 @@ class Walk {
  private:
   std::mt19937 random_{5};
   int scans_ = 0;
+  int missed_ = 0;
   double last_yaw_rad_ = 0.0;
 };
 
