@@ -160,7 +160,10 @@ void Coordinator::count_known_cells(SteadyTime now) {
 
 std::vector<merging::LayerProgress> Coordinator::progress() const {
   std::vector<merging::LayerProgress> all;
-  for (const auto& [layer, progress] : progress_) all.push_back(progress);
+  for (const auto& [layer, progress] : progress_) {
+    all.push_back(progress);
+    all.back().group = keeper_.plan().group_of(layer);
+  }
   return all;
 }
 

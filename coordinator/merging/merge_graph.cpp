@@ -118,6 +118,15 @@ std::optional<Pose2> MergePlan::T_a_b(const LayerPair& pair) const {
   return std::nullopt;
 }
 
+std::optional<std::size_t> MergePlan::group_of(const LayerKey& layer) const {
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (const Membership& member : groups[i]) {
+      if (member.layer == layer) return i;
+    }
+  }
+  return std::nullopt;
+}
+
 const Contradiction* MergePlan::find(const LayerPair& pair) const {
   const auto found = std::find_if(contradictions.begin(), contradictions.end(),
                                   [&](const auto& other) { return other.pair == pair; });

@@ -78,6 +78,8 @@ struct MergePlan {
   /// Where the plan lays b on a; nothing where they are in no common group.
   [[nodiscard]] std::optional<Pose2> T_a_b(const LayerPair& pair) const;
   [[nodiscard]] const Contradiction* find(const LayerPair& pair) const;
+  /// Which of `groups` a layer is in; nothing where it is in none.
+  [[nodiscard]] std::optional<std::size_t> group_of(const LayerKey& layer) const;
 };
 
 /// The accepted merges between all layers. Plain data and a pure plan(): one owner, not

@@ -12,6 +12,10 @@ constexpr std::size_t kFairTurn = 4;
 constexpr int kStableMatches = 3;
 constexpr double kStableFactor = 2.0;
 
+bool in_one_group(const LayerProgress& a, const LayerProgress& b) {
+  return a.group && a.group == b.group;
+}
+
 }  // namespace
 
 double MergeSchedule::explored_percent(std::size_t known_cells) const {
@@ -53,11 +57,11 @@ std::vector<MergeSchedule::Candidate> MergeSchedule::candidates(
       const LayerPair pair{a.layer, b.layer};
       const auto last = last_.find(pair);
       if (last == last_.end()) {
-        found.push_back({pair, Need::first, 0, true});
+        found.push_back({pair, in_one_group(a, b) ? Need::together : Need::first, 0, true});
         continue;
       }
       auto why = need(a, b, last->second);
-      if (!why && asked_for.contains(pair)) why = Need::apart;
+      if (!why && asked_for.contains(pair)) why = Need::together;
       const bool rested = !now || *now - last->second.at >= config_.min_interval;
       if (why) found.push_back({pair, *why, last->second.turn, rested});
     }
@@ -68,7 +72,8 @@ std::vector<MergeSchedule::Candidate> MergeSchedule::candidates(
 std::optional<MergeSchedule::Need> MergeSchedule::need(const LayerProgress& a,
                                                        const LayerProgress& b,
                                                        const Last& last) const {
-  const Need usual = last.standing == Standing::apart ? Need::apart : Need::merged;
+  const Need unmerged = in_one_group(a, b) ? Need::together : Need::apart;
+  const Need usual = last.standing == Standing::apart ? unmerged : Need::merged;
   const bool changed = a.changes != last.a.changes || b.changes != last.b.changes;
   if (last.standing == Standing::doubted) {
     // The second opinion: on maps that changed, or at last on maps that will not.
@@ -78,7 +83,7 @@ std::optional<MergeSchedule::Need> MergeSchedule::need(const LayerProgress& a,
     return std::nullopt;
   }
   if (was_revised(a, last.a) || was_revised(b, last.b))
-    return last.standing == Standing::merged ? Need::harm : Need::apart;
+    return last.standing == Standing::merged ? Need::harm : unmerged;
   const bool has_ended = a.finished != last.a.finished || b.finished != last.b.finished;
   if (a.finished && b.finished && (changed || has_ended)) return usual;
   const double factor = growth_factor(last);

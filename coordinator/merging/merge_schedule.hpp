@@ -31,6 +31,8 @@ struct LayerProgress {
   std::size_t wall_cells = 0;     ///< cells near a wall
   std::size_t revised_cells = 0;  ///< grows with every such cell that a later tile contradicts
   bool quiet = false;             ///< nothing has changed for a while
+  /// The group of the plan that it is in; nothing while it is alone.
+  std::optional<std::size_t> group = std::nullopt;
 };
 
 /// What the coordinator thinks of a pair after its match.
@@ -41,8 +43,9 @@ enum class Standing {
 };
 
 /// Decides which pair is matched next: Eq. 11 for both maps, same floor, and enough growth or
-/// correction since the pair's last match. Merges that may do harm come first, then pairs that were
-/// never matched, then those that are apart, then merged ones, which need more growth the more
+/// correction since the pair's last match. Merges that may do harm come first; then pairs that would
+/// bring together what nothing joins yet, those that were never matched before the others; then
+/// pairs that are in one group by way of others; then merged ones, which need more growth the more
 /// often they were confirmed. Every fourth match goes to whoever has waited longest, so that nobody
 /// starves.
 class MergeSchedule {
@@ -66,7 +69,7 @@ class MergeSchedule {
   void matched(const LayerProgress& a, const LayerProgress& b, SteadyTime now, Standing standing);
 
  private:
-  enum class Need { harm, first, apart, merged };
+  enum class Need { harm, first, apart, together, merged };
   struct Last {
     LayerProgress a, b;
     SteadyTime at;

@@ -131,6 +131,25 @@ TEST_F(MergeScheduleTest, AMergeThatWasConfirmedThriceNeedsTwiceTheGrowth) {
   EXPECT_TRUE(due({alpha_, progress("bravo", 36'001)}));
 }
 
+TEST_F(MergeScheduleTest, WhatNothingJoinsYetComesBeforePairsOfOneGroup) {
+  alpha_.group = bravo_.group = 0;
+  EXPECT_EQ(due({alpha_, bravo_, charlie_}), alpha_charlie_);
+  matched(alpha_, charlie_);
+  matched(bravo_, charlie_);
+  charlie_.known_cells = 40'000;  // apart and grown: looked at again before alpha and bravo
+  EXPECT_EQ(due({alpha_, bravo_, charlie_}), alpha_charlie_);
+  matched(alpha_, charlie_);
+  matched(bravo_, charlie_);
+  EXPECT_EQ(due({alpha_, bravo_, charlie_}), alpha_bravo_) << "their turn comes at last";
+}
+
+TEST_F(MergeScheduleTest, TwoGroupsAreBroughtTogetherFirst) {
+  LayerProgress delta = progress("delta", 30'000);
+  alpha_.group = bravo_.group = 0;
+  charlie_.group = delta.group = 1;
+  EXPECT_EQ(due({alpha_, bravo_, charlie_, delta}), alpha_charlie_);
+}
+
 TEST_F(MergeScheduleTest, APairThatSomebodyAsksForIsMatchedUnchanged) {
   matched(alpha_, bravo_);
   EXPECT_EQ(schedule_.due({alpha_, bravo_}, now_, {alpha_bravo_}), alpha_bravo_);
