@@ -1,6 +1,7 @@
 #include "deploy/demo/fleet.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,6 +25,13 @@ ChildCommand command(const std::filesystem::path& program, const Mission& missio
            mission.mission_id, "--domain", fmt::to_string(mission.domain_id), "--qos",
            mission.programs.qos.string()},
           mission.report / (name + ".log")};
+}
+
+/// "alpha ended with status 3: the lidar is gone (see /tmp/report/alpha.log)".
+std::string ending(const std::string& name, std::string_view how, int status,
+                   const std::filesystem::path& log) {
+  return fmt::format("{} {} with status {}: {} (see {})", name, how, status, last_line(log),
+                     log.string());
 }
 
 }  // namespace
@@ -89,11 +97,25 @@ void Fleet::stop(SignalWatch& signals, Duration patience) {
 Result<void> Fleet::check_helmets() {
   for (Member& helmet : helmets_) {
     if (const auto status = helmet.process.ended()) {
-      return fail(ErrorCode::unavailable, "{} ended early with status {}: {} (see {})", helmet.name,
-                  *status, last_line(helmet.log), helmet.log.string());
+      return fail(ErrorCode::unavailable, "{}",
+                  ending(helmet.name, "ended early", *status, helmet.log));
     }
   }
   return {};
+}
+
+std::vector<std::string> Fleet::bad_ends() {
+  std::vector<std::string> bad;
+  for (Member& helmet : helmets_) {
+    const auto status = helmet.process.ended();
+    if (!status) {
+      bad.push_back(fmt::format("{} did not end in time and was killed (see {})", helmet.name,
+                                helmet.log.string()));
+    } else if (*status != 0) {
+      bad.push_back(ending(helmet.name, "ended", *status, helmet.log));
+    }
+  }
+  return bad;
 }
 
 bool Fleet::all_ended() {

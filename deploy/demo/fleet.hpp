@@ -42,6 +42,9 @@ class Fleet {
   /// than `patience`, or all when asked to stop once more.
   void stop(SignalWatch& signals, Duration patience);
 
+  /// After stop(): a sentence for each helmet that failed as it ended, or had to be killed.
+  [[nodiscard]] std::vector<std::string> bad_ends();
+
   /// The coordinator's exit status, once it has ended.
   [[nodiscard]] std::optional<int> coordinator_status() { return coordinator_.process.ended(); }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -58,8 +59,9 @@ Result<Mission> plan_mission(const Options& options, const FleetPlan& fleet) {
                                                             : fleet.play_s + kTimeToSettle_s};
 }
 
-/// Runs the processes from start to end.
-Result<void> play(const Mission& mission, const FleetPlan& plan) {
+/// Runs the processes from start to end. What came of it: a sentence for each helmet that failed at
+/// its end.
+Result<std::vector<std::string>> play(const Mission& mission, const FleetPlan& plan) {
   SignalWatch signals;
   auto fleet = Fleet::start(mission, plan);
   if (!fleet) return forward_error(fleet);
@@ -75,7 +77,7 @@ Result<void> play(const Mission& mission, const FleetPlan& plan) {
     return fail(ErrorCode::unavailable, "the coordinator failed with status {}: {}", status,
                 last_line(mission.report / "coordinator.log"));
   }
-  return {};
+  return fleet->bad_ends();
 }
 
 void print_outcome(const nlohmann::json& summary, const std::filesystem::path& folder) {
@@ -99,7 +101,8 @@ Result<bool> run(const Options& options) {
   }
   std::fflush(stdout);
 
-  if (auto played = play(*mission, *plan); !played) return forward_error(played);
+  const auto bad_ends = play(*mission, *plan);
+  if (!bad_ends) return forward_error(bad_ends);
   const auto coordinator = read_report(mission->report / "coordinator.json");
   const auto summary = make_summary(read_outcomes(mission->report, *plan), coordinator, plan->finds,
                                     to_seconds(clock.steady_now() - start));
@@ -109,7 +112,8 @@ Result<bool> run(const Options& options) {
   print_outcome(summary, options.report);
   const Verdict verdict = judge(summary, coordinator);
   fmt::print("{:.0f} s: {}\n", summary["wall_s"].get<double>(), verdict.text);
-  return verdict.good;
+  for (const std::string& bad : *bad_ends) fmt::print("{}\n", bad);
+  return verdict.good && bad_ends->empty();
 }
 
 }  // namespace

@@ -84,6 +84,22 @@ TEST_F(FleetTest, names_a_helmet_that_ends_early_with_its_last_words) {
   EXPECT_THAT(end.error().text, HasSubstr("the lidar is gone"));
 }
 
+TEST_F(FleetTest, names_a_helmet_that_fails_while_it_reports) {
+  SignalWatch signals;
+  auto fleet = Fleet::start(
+      mission(
+          "sleep 0.2; exit 0",
+          "trap 'case \"$*\" in *bravo*) echo no room for the report >&2; exit 4;; esac; exit 0' "
+          "TERM; while :; do sleep 0.05; done"),
+      plan_);
+  ASSERT_TRUE(fleet) << fleet.error().text;
+  ASSERT_TRUE(fleet->wait(signals));
+  fleet->stop(signals, 10s);
+  const auto bad = fleet->bad_ends();
+  ASSERT_EQ(bad.size(), 1U);
+  EXPECT_THAT(bad.front(), HasSubstr("bravo ended with status 4: no room for the report"));
+}
+
 TEST_F(FleetTest, stops_waiting_when_somebody_asks_for_it) {
   SignalWatch signals;
   auto fleet = Fleet::start(mission("sleep 60", "sleep 60"), plan_);
