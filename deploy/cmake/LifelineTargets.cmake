@@ -20,12 +20,9 @@ if(LIFELINE_MOLD)
 endif()
 
 # Sources of a target in batches: headers are parsed, and what they inline is compiled, once a batch. A source that forgets
-# an include, or whose internal names clash with another's, shows only where it is compiled alone: `dev` does so for all
-# outside tests/.
+# an include shows only where it is compiled alone: `release` does so.
 function(lifeline_batch target)
-  set(tests_dir "${PROJECT_SOURCE_DIR}/tests")
-  cmake_path(IS_PREFIX tests_dir "${CMAKE_CURRENT_SOURCE_DIR}" is_of_tests)
-  if(LIFELINE_BATCHES STREQUAL "all" OR (LIFELINE_BATCHES STREQUAL "tests" AND is_of_tests))
+  if(LIFELINE_BATCHES)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()
