@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 
 #include "agents/agent_settings.hpp"
+#include "agents/loaded_pages.hpp"
 #include "agents/sensing/motion_tracker.hpp"
 #include "agents/slam/loop_closer.hpp"
 #include "agents/slam/scan_check.hpp"
@@ -126,12 +127,15 @@ Result<SlamRun> play(sensing::ScanSource& source, const sensing::ProjectionConfi
   }
   slam.settle_all();
   correct(closer, slam, run);
-  if (closer) finish(*closer, slam, run);
+  if (closer) {
+    finish(*closer, slam, run);
+    run.loops = closer->loops();
+    closer.reset();  // its keyframes are of no use any more
+  }
   slam.time_stages(nullptr);
   run.revisited = slam.revisit();
   slam.smooth_trajectory();
   run.trajectory = slam.trajectory();
-  run.loops = closer ? closer->loops() : 0;
   return run;
 }
 
@@ -236,6 +240,7 @@ Result<void> run_slam(const SlamCommandOptions& options) {
     closer.emplace(settings.slam.loops, settings.geometry, settings.slam.push,
                    settings.slam.tracker, settings.slam.direct, settings.slam.search);
   }
+  give_back_loaded_pages();
   const std::jthread passing = pass_on_stop_signal(stop);
   const auto run = play(**source, settings.projection, slam, closer);
   if (!run) return forward_error(run);

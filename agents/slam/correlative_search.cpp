@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "common/base/cpu_clones.hpp"
 #include "common/grid/cell_lanes.hpp"
@@ -11,31 +13,33 @@
 namespace lifeline::slam {
 namespace {
 
-/// Score of a point on a surface; the sum over 300 points still fits 16 bits.
-constexpr int kFull = 100;
+/// Worse than any sum.
+constexpr std::int16_t kWorst = std::numeric_limits<std::int16_t>::min();
 
-static_assert(TsdCell::kTsdOne % kFull == 0);
+/// Vectors of GCC and Clang.
+using Sums = std::int16_t __attribute__((vector_size(16)));
+constexpr int kSums = sizeof(Sums) / sizeof(std::int16_t);
+static_assert(CorrelativeSearch::kPlaces == 2 * kSums);
 
-/// Summed at once, in vectors of GCC and Clang: so many places along x ...
-constexpr int kLanes16 = 16;
-/// ... in so many rows.
-constexpr int kRows = 4;
+Sums load_sums(const std::int16_t* from) {
+  Sums sums;
+  std::memcpy(&sums, from, sizeof sums);
+  return sums;
+}
 
-/// The field at kLanes16 places in each of kRows rows, summed over all points.
+/// The field at CorrelativeSearch::kPlaces x kRows places, summed over all points.
 LIFELINE_ALSO_FOR_AVX2
-void sum_points(const std::int8_t* field, std::ptrdiff_t row,
+void sum_points(const std::int16_t* field, std::ptrdiff_t row,
                 std::span<const std::ptrdiff_t> points, std::int16_t* sums,
                 std::ptrdiff_t sums_row) {
-  using Half = std::int8_t __attribute__((vector_size(8)));
-  using Sums = std::int16_t __attribute__((vector_size(16)));
-  std::array<std::array<Sums, 2>, kRows> total{};
+  std::array<std::array<Sums, 2>, CorrelativeSearch::kRows> total{};
   for (const std::ptrdiff_t point : points) {
-    const std::int8_t* from = field + point;
+    const std::int16_t* from = field + point;
     for (auto& sums_of_row : total) {
-      std::array<Half, 2> fits;
+      std::array<Sums, 2> fits;
       std::memcpy(fits.data(), from, sizeof fits);
-      sums_of_row[0] += __builtin_convertvector(fits[0], Sums);
-      sums_of_row[1] += __builtin_convertvector(fits[1], Sums);
+      sums_of_row[0] += fits[0];
+      sums_of_row[1] += fits[1];
       from += row;
     }
   }
@@ -45,16 +49,11 @@ void sum_points(const std::int8_t* field, std::ptrdiff_t row,
   }
 }
 
-/// How well a scan's point would fit into each of four cells; kUnknown where they are not known.
-constexpr std::int32_t kUnknown = -128;
-IntLanes fit(IntLanes cells, int free_penalty) {
-  const IntLanes tsd = (cells << 16) >> 16;
-  // The quotient of small whole numbers, cut off, is exact also by this way.
-  const FloatLanes loss = __builtin_convertvector(magnitude(tsd), FloatLanes) /
-                          static_cast<float>(TsdCell::kTsdOne / kFull);
-  const IntLanes near = kFull - __builtin_convertvector(loss, IntLanes);
-  const IntLanes known = choose(tsd > TsdCell::kTsdOne * 95 / 100, IntLanes{} - free_penalty, near);
-  return choose(cells > kTsdBits, known, IntLanes{} + kUnknown);
+/// Which of kSums scores are above 0 and no neighbour along x or y is better: -1.
+Sums are_peaks(const std::int16_t* scores, std::ptrdiff_t row) {
+  const Sums here = load_sums(scores);
+  return (here > 0) & (load_sums(scores - 1) <= here) & (load_sums(scores + 1) <= here) &
+         (load_sums(scores - row) <= here) & (load_sums(scores + row) <= here);
 }
 
 }  // namespace
@@ -75,12 +74,12 @@ std::vector<SearchCandidate> CorrelativeSearch::search(const WorkingMap& map,
   const double window_rad =
       std::min(config_.window_sigmas * prediction.sigma_yaw_rad, config_.max_window_rad);
   const int window = static_cast<int>(std::ceil(window_m / spacing_m_));
-  build_field(map, prediction.T_map_head, window * spacing_m_);
   double lever2_m2 = 0.0;
   for (const Eigen::Vector2d& p : points_) lever2_m2 += p.squaredNorm();
   const double lever_m = std::sqrt(lever2_m2 / static_cast<double>(points_.size()));
   const double yaw_step_rad = std::clamp(1.2 * spacing_m_ / lever_m, 0.005, 0.05);
   const int yaws = static_cast<int>(std::ceil(window_rad / yaw_step_rad));
+  build_field(map, prediction.T_map_head, window * spacing_m_, yaws * yaw_step_rad);
   for (int k = -yaws; k <= yaws; ++k) {
     const double yaw_rad = prediction.T_map_head.yaw_rad + k * yaw_step_rad;
     score_yaw(prediction.T_map_head, yaw_rad, window);
@@ -104,58 +103,6 @@ void CorrelativeSearch::choose_points(std::span<const SurfacePiece> pieces) {
   points_.resize(most);
 }
 
-void CorrelativeSearch::build_field(const WorkingMap& map, const Pose2& centre, double window_m) {
-  double reach_m = 0.0;
-  for (const Eigen::Vector2d& p : points_) reach_m = std::max(reach_m, p.norm());
-  reach_m += window_m + 2.0 * spacing_m_;
-  const double tile_m = map.geometry().cell_size_m * kTileSide;
-  const auto tile_at = [&](double at_m) {
-    return static_cast<std::int32_t>(std::floor(at_m / tile_m));
-  };
-  const TileIndex low{tile_at(centre.x_m - reach_m), tile_at(centre.y_m - reach_m)};
-  const TileIndex high{tile_at(centre.x_m + reach_m), tile_at(centre.y_m + reach_m)};
-  columns_ = (high.x - low.x + 1) * kFieldSide;
-  rows_ = (high.y - low.y + 1) * kFieldSide;
-  field_origin_m_ = Eigen::Vector2d(low.x, low.y) * tile_m;
-  field_.assign(
-      static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_ + kRows) + kLanes16, 0);
-  for (std::int32_t y = low.y; y <= high.y; ++y) {
-    for (std::int32_t x = low.x; x <= high.x; ++x) {
-      const TsdTile* cells = map.find({x, y});
-      if (cells == nullptr) continue;
-      const TileField& tile = field_of({x, y}, *cells);
-      auto to = field_.begin() + std::ptrdiff_t{(y - low.y) * kFieldSide} * columns_ +
-                (x - low.x) * kFieldSide;
-      for (auto from = tile.begin(); from != tile.end(); from += kFieldSide, to += columns_) {
-        std::copy(from, from + kFieldSide, to);
-      }
-    }
-  }
-}
-
-const CorrelativeSearch::TileField& CorrelativeSearch::field_of(TileIndex tile,
-                                                                const TsdTile& cells) {
-  const auto [slot, fresh] = fields_.try_emplace(tile);
-  if (!fresh) return slot->second;
-  const int penalty = static_cast<int>(std::lround(config_.free_penalty * kFull));
-  for (int y = 0; y < kFieldSide; ++y) {
-    const TsdCell* low = cells.data() + offset_in_tile({0, 2 * y});
-    std::array<std::int32_t, kTileSide> best;  // of the two cells above each other
-    for (std::size_t x = 0; x < best.size(); x += kLanes) {
-      const IntLanes a = fit(load_cells(low + x), penalty);
-      const IntLanes b = fit(load_cells(low + kTileSide + x), penalty);
-      const IntLanes better = choose(a > b, a, b);
-      std::memcpy(&best[x], &better, sizeof better);
-    }
-    for (std::size_t x = 0; x < kFieldSide; ++x) {
-      const std::int32_t best_of_four = std::max(best[2 * x], best[2 * x + 1]);
-      slot->second[static_cast<std::size_t>(y) * kFieldSide + x] =
-          static_cast<std::int8_t>(best_of_four == kUnknown ? 0 : best_of_four);
-    }
-  }
-  return slot->second;
-}
-
 void CorrelativeSearch::score_yaw(const Pose2& centre, double yaw_rad, int window) {
   const int side = 2 * window + 1;
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
@@ -170,14 +117,18 @@ void CorrelativeSearch::score_yaw(const Pose2& centre, double yaw_rad, int windo
   }
   // Summed in whole blocks; what the last ones hold beyond the window is never read.
   const int rows = (side + kRows - 1) / kRows * kRows;
-  stride_ = (side + kLanes16 - 1) / kLanes16 * kLanes16;
-  scores_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows));
-  for (std::ptrdiff_t dy = 0; dy < rows; dy += kRows) {
-    for (std::ptrdiff_t dx = 0; dx < stride_; dx += kLanes16) {
-      sum_points(field_.data() + dy * columns_ + dx, columns_, corners_,
-                 scores_.data() + dy * stride_ + dx, stride_);
+  const int columns = (side + kPlaces - 1) / kPlaces * kPlaces;
+  stride_ = columns + 2 * kRim;
+  scores_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows + 2));
+  for (int dy = 0; dy < rows; dy += kRows) {
+    for (int dx = 0; dx < columns; dx += kPlaces) {
+      sum_points(field_.data() + std::ptrdiff_t{dy} * columns_ + dx, columns_, corners_,
+                 row_of_scores(dy) + dx, stride_);
     }
   }
+  for (int row = 0; row < side; ++row) row_of_scores(row)[-1] = row_of_scores(row)[side] = kWorst;
+  std::fill_n(row_of_scores(-1), columns, kWorst);
+  std::fill_n(row_of_scores(side), columns, kWorst);
 }
 
 double CorrelativeSearch::prior_penalty(const Prediction& prediction, double dx_m, double dy_m,
@@ -189,25 +140,31 @@ double CorrelativeSearch::prior_penalty(const Prediction& prediction, double dx_
 
 void CorrelativeSearch::collect(const Prediction& prediction, double yaw_rad, int window) {
   const int side = 2 * window + 1;
-  const double full = static_cast<double>(kFull) * static_cast<double>(points_.size());
   for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const std::int16_t* here = scores_.data() + y * stride_ + x;
-      if (*here <= 0 || (x > 0 && here[-1] > *here) || (x + 1 < side && here[1] > *here) ||
-          (y > 0 && here[-stride_] > *here) || (y + 1 < side && here[stride_] > *here)) {
-        continue;
+    const std::int16_t* scores = row_of_scores(y);
+    for (int x = 0; x < side; x += kSums) {
+      const Sums peaks = are_peaks(scores + x, stride_);
+      if (!any(std::bit_cast<IntLanes>(peaks))) continue;
+      for (int i = 0; i < std::min(kSums, side - x); ++i) {
+        if (peaks[i] == 0) continue;
+        add_candidate(prediction, yaw_rad, (x + i - window) * spacing_m_, (y - window) * spacing_m_,
+                      scores[x + i]);
       }
-      const double dx_m = (x - window) * spacing_m_, dy_m = (y - window) * spacing_m_;
-      const double dyaw_rad = normalise_angle(yaw_rad - prediction.T_map_head.yaw_rad);
-      SearchCandidate candidate;
-      candidate.T_map_head = {prediction.T_map_head.x_m + dx_m, prediction.T_map_head.y_m + dy_m,
-                              normalise_angle(yaw_rad)};
-      candidate.agreement = *here / full;
-      candidate.score = config_.independent_points * candidate.agreement -
-                        prior_penalty(prediction, dx_m, dy_m, dyaw_rad);
-      found_.push_back(candidate);
     }
   }
+}
+
+void CorrelativeSearch::add_candidate(const Prediction& prediction, double yaw_rad, double dx_m,
+                                      double dy_m, int score) {
+  const double full = static_cast<double>(kFull) * static_cast<double>(points_.size());
+  const double dyaw_rad = normalise_angle(yaw_rad - prediction.T_map_head.yaw_rad);
+  SearchCandidate candidate;
+  candidate.T_map_head = {prediction.T_map_head.x_m + dx_m, prediction.T_map_head.y_m + dy_m,
+                          normalise_angle(yaw_rad)};
+  candidate.agreement = score / full;
+  candidate.score = config_.independent_points * candidate.agreement -
+                    prior_penalty(prediction, dx_m, dy_m, dyaw_rad);
+  found_.push_back(candidate);
 }
 
 std::vector<SearchCandidate> CorrelativeSearch::distinct(double yaw_step_rad) {

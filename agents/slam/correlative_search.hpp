@@ -49,14 +49,29 @@ class CorrelativeSearch {
 
   [[nodiscard]] const SearchConfig& config() const { return config_; }
 
+  /// Score of a point on a surface; the sum over 300 points still fits 16 bits.
+  static constexpr int kFull = 100;
+  static_assert(TsdCell::kTsdOne % kFull == 0);
+  /// Summed at once: so many places along x in each of so many rows.
+  static constexpr int kPlaces = 16, kRows = 4;
+
  private:
   static constexpr int kFieldSide = kTileSide / 2;
+  static constexpr int kRim = 8;  ///< beside each row of scores
   using TileField = std::array<std::int8_t, static_cast<std::size_t>(kFieldSide* kFieldSide)>;
 
   void choose_points(std::span<const SurfacePiece> pieces);
-  void build_field(const WorkingMap& map, const Pose2& centre, double window_m);
+  void build_field(const WorkingMap& map, const Pose2& centre, double window_m, double window_rad);
+  /// Marks the tiles that any point may fall into.
+  void mark_needed(const Pose2& centre, double window_m, double window_rad, double tile_m);
   [[nodiscard]] const TileField& field_of(TileIndex tile, const TsdTile& cells);
   void score_yaw(const Pose2& centre, double yaw_rad, int window);
+  /// The first score of a row; row -1 is the rim's.
+  [[nodiscard]] std::int16_t* row_of_scores(std::ptrdiff_t row) {
+    return scores_.data() + (row + 1) * stride_ + kRim;
+  }
+  void add_candidate(const Prediction& prediction, double yaw_rad, double dx_m, double dy_m,
+                     int score);
   [[nodiscard]] double prior_penalty(const Prediction& prediction, double dx_m, double dy_m,
                                      double dyaw_rad) const;
   void collect(const Prediction& prediction, double yaw_rad, int window);
@@ -65,14 +80,18 @@ class CorrelativeSearch {
   SearchConfig config_;
   std::unordered_map<TileIndex, TileField> fields_;
   std::vector<Eigen::Vector2d> points_;
-  std::vector<std::int8_t> field_;  ///< the tiles' fields side by side, with a margin
+  TileIndex first_tile_{};  ///< of the field
+  int tile_columns_ = 0, tile_rows_ = 0;
+  std::vector<bool> needed_;  ///< of its tiles: those that points may fall into
+  /// The needed tiles' fields side by side, with a margin; between them, anything.
+  std::vector<std::int16_t> field_;
   Eigen::Vector2d field_origin_m_ = Eigen::Vector2d::Zero();
   double spacing_m_ = 0.1;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<std::ptrdiff_t> corners_;  ///< in field_, of each turned point's window
-  std::vector<std::int16_t> scores_;     ///< of one yaw, (2 window + 1) rows of stride_
-  int stride_ = 0;
+  std::vector<std::int16_t> scores_;     ///< of one yaw, with a rim that is worse than any
+  std::ptrdiff_t stride_ = 0;            ///< from row to row
   std::vector<SearchCandidate> found_;
 };
 

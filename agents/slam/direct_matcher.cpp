@@ -45,6 +45,13 @@ struct ViewPose {
   float x, y, c, s;
 };
 
+/// The map at four points (DirectMatcher::FourPoints).
+template <typename Points>
+TsdView::FourSamples sample_at(const TsdView& view, const ViewPose& pose, const Points& points) {
+  return view.sample_four(pose.x + pose.c * points.x - pose.s * points.y,
+                          pose.y + pose.s * points.x + pose.c * points.y);
+}
+
 }  // namespace
 
 void DirectMatcher::set_scan(std::span<const SurfacePiece> pieces) {
@@ -57,6 +64,8 @@ void DirectMatcher::set_scan(std::span<const SurfacePiece> pieces) {
     points_.push_back(
         {pieces[i].point.x(), pieces[i].point.y(), std::sqrt(length_m / kTypicalLength_m)});
   }
+  weight_sum_ = 0.0F;
+  for (const Point& point : points_) weight_sum_ += point.weight;
   fours_.assign((points_.size() + kLanes - 1) / kLanes, FourPoints{});
   for (std::size_t i = 0; i < points_.size(); ++i) {
     FourPoints& four = fours_[i / kLanes];
@@ -136,24 +145,26 @@ MatchEvidence DirectMatcher::judge(const TsdView& view, const Pose2& T_map_head,
   const ViewPose pose(view, T_map_head);
   MatchEvidence evidence;
   evidence.points = static_cast<int>(points_.size());
-  TsdView::Sample sample{};
+  IntLanes known{}, conflicts{};  // counted backwards: a true comparison is -1
   double error_sum_m = 0.0;
-  for (const Point& point : points_) {
-    if (!view.sample(pose.x + pose.c * point.x - pose.s * point.y,
-                     pose.y + pose.s * point.x + pose.c * point.y, sample)) {
-      continue;
+  for (const FourPoints& point : fours_) {
+    const auto sample = sample_at(view, pose, point);
+    const IntLanes is_known = sample.known & (point.weight > 0.0F);
+    const IntLanes is_free = is_known & (sample.value > kFree);
+    known += is_known;
+    conflicts += is_free;
+    const IntLanes compared = is_known & ~is_free;
+    for (int i = 0; i < kLanes; ++i) {
+      if (compared[i] == 0) continue;
+      const double error_m =
+          std::abs(static_cast<double>(sample.value[i])) * view.geometry().truncation_m;
+      error_sum_m += error_m;
+      ++evidence.model_points;
+      if (error_m <= config_.inlier_m) ++evidence.inliers;
     }
-    ++evidence.known;
-    if (sample.value > kFree) {
-      ++evidence.conflicts;
-      continue;
-    }
-    const double error_m =
-        std::abs(static_cast<double>(sample.value)) * view.geometry().truncation_m;
-    error_sum_m += error_m;
-    ++evidence.model_points;
-    if (error_m <= config_.inlier_m) ++evidence.inliers;
   }
+  evidence.known = -(known[0] + known[1] + known[2] + known[3]);
+  evidence.conflicts = -(conflicts[0] + conflicts[1] + conflicts[2] + conflicts[3]);
   if (evidence.model_points > 0) evidence.mean_error_m = error_sum_m / evidence.model_points;
   const Normal normal = linearise(view, T_map_head, config_.last_kernel_m);
   Eigen::Matrix3d H = information_scale(normal) * normal.H;
@@ -167,20 +178,19 @@ MatchEvidence DirectMatcher::judge(const TsdView& view, const Pose2& T_map_head,
 
 double DirectMatcher::agreement(const TsdView& view, const Pose2& T_map_head) const {
   const ViewPose pose(view, T_map_head);
-  TsdView::Sample sample{};
-  float sum = 0.0F, weight = 0.0F;
-  for (const Point& point : points_) {
-    weight += point.weight;
-    if (!view.sample(pose.x + pose.c * point.x - pose.s * point.y,
-                     pose.y + pose.s * point.x + pose.c * point.y, sample)) {
-      continue;
-    }
-    sum += point.weight * (sample.value > kFree ? -0.5F : 1.0F - std::abs(sample.value));
+  float sum = 0.0F;
+  for (const FourPoints& point : fours_) {
+    const auto sample = sample_at(view, pose, point);
+    const FloatLanes distance = choose(sample.value < 0.0F, -sample.value, sample.value);
+    const FloatLanes fit = choose(sample.value > kFree, FloatLanes{} - 0.5F, 1.0F - distance);
+    const FloatLanes fits = choose(sample.known, point.weight * fit, FloatLanes{});
+    for (int i = 0; i < kLanes; ++i) sum += fits[i];
   }
-  return weight > 0.0F ? static_cast<double>(sum / weight) : 0.0;
+  return weight_sum_ > 0.0F ? static_cast<double>(sum / weight_sum_) : 0.0;
 }
 
-double DirectMatcher::seen_through_walls(const TsdView& view, const Pose2& T_map_head) const {
+double DirectMatcher::seen_through_walls(const TsdView& view, const Pose2& T_map_head,
+                                         double enough) const {
   const ViewPose pose(view, T_map_head);
   const FloatLanes steps = __builtin_convertvector(count_from(0), FloatLanes) * kBeamStep;
   const auto passes = [&](float x, float y, float length) {
@@ -189,20 +199,20 @@ double DirectMatcher::seen_through_walls(const TsdView& view, const Pose2& T_map
       const FloatLanes along = at + steps, share = along / length;
       const auto column = __builtin_convertvector(pose.x + share * x, IntLanes);
       const auto row = __builtin_convertvector(pose.y + share * y, IntLanes);
-      for (int i = 0; i < kLanes && along[i] < end; ++i) {
-        const TsdCell cell = view.cell(column[i], row[i]);
-        if (cell.known() && cell.value() < kBehind) return true;
-      }
+      const IntLanes cells = view.four_cells(column, row);
+      const FloatLanes value = values_of(cells);
+      if (any((along < end) & (cells > kTsdBits) & (value < kBehind))) return true;
     }
     return false;
   };
-  float sum = 0.0F, weight = 0.0F;
+  float sum = 0.0F;
   for (const Point& point : points_) {
     const float x = pose.c * point.x - pose.s * point.y, y = pose.s * point.x + pose.c * point.y;
-    weight += point.weight;
-    if (passes(x, y, std::hypot(x, y))) sum += point.weight;
+    if (!passes(x, y, std::hypot(x, y))) continue;
+    sum += point.weight;
+    if (static_cast<double>(sum) > enough * static_cast<double>(weight_sum_)) break;
   }
-  return weight > 0.0F ? static_cast<double>(sum / weight) : 0.0;
+  return weight_sum_ > 0.0F ? static_cast<double>(sum / weight_sum_) : 0.0;
 }
 
 }  // namespace lifeline::slam

@@ -47,7 +47,9 @@ class DirectMatcher {
   [[nodiscard]] double agreement(const TsdView& view, const Pose2& T_map_head) const;
 
   /// Share of the points, in [0, 1], whose beam would have had to pass through a known surface.
-  [[nodiscard]] double seen_through_walls(const TsdView& view, const Pose2& T_map_head) const;
+  /// Where it is more than `enough`, something between that and the share.
+  [[nodiscard]] double seen_through_walls(const TsdView& view, const Pose2& T_map_head,
+                                          double enough = 1.0) const;
 
  private:
   struct Point {
@@ -73,6 +75,7 @@ class DirectMatcher {
   DirectConfig config_;
   std::vector<Point> points_;
   std::vector<FourPoints> fours_;  ///< the same
+  float weight_sum_ = 0.0F;
 };
 
 }  // namespace lifeline::slam

@@ -123,13 +123,8 @@ std::vector<SurfacePiece> LoopCloser::surface_before(std::size_t now) const {
     if (path_m_[now] - path_m_[i] > config_.new_reach_m) break;
     pieces.clear();
     keyframes_[i].surface.unpack(pieces);
-    const Pose2 T_head_then = T_head_map * poses_[i];
-    const Pose2 turn{0.0, 0.0, T_head_then.yaw_rad};
-    for (SurfacePiece piece : pieces) {
-      piece.point = (T_head_then * piece.point.cast<double>()).cast<float>();
-      piece.normal = (turn * piece.normal.cast<double>()).cast<float>();
-      recent.push_back(piece);
-    }
+    const PointTransform T_head_then(T_head_map * poses_[i]);
+    for (const SurfacePiece& piece : pieces) recent.push_back(moved(piece, T_head_then));
   }
   return recent;
 }

@@ -9,6 +9,7 @@
 namespace lifeline::slam {
 
 std::optional<MapCorrection> LoopCloser::finish() {
+  chain_.end();
   if (loops_ > 0) optimise(poses_, edges_, config_.graph);
   const bool corrected = redrawn_ || has_moved();
   for (int round = 0; corrected && round < config_.tie_rounds; ++round) tie_places();

@@ -13,14 +13,6 @@ namespace {
 constexpr std::size_t kMinPieces = 30;
 constexpr double kViewMargin_m = 4.0;
 
-SurfacePiece moved(const SurfacePiece& piece, const Pose2& T) {
-  SurfacePiece result = piece;
-  result.point = (T * piece.point.cast<double>()).cast<float>();
-  const Pose2 turn{0.0, 0.0, T.yaw_rad};
-  result.normal = (turn * piece.normal.cast<double>()).cast<float>();
-  return result;
-}
-
 }  // namespace
 
 LostStretch::LostStretch(StretchConfig config, GridGeometry geometry, PushConfig push,
@@ -91,7 +83,7 @@ std::vector<SurfacePiece> LostStretch::cloud() const {
   std::unordered_set<TileIndex> taken;
   const auto longest_m = static_cast<float>(config_.max_range_m);
   for (const View& view : views_) {
-    const Pose2 T_head_view = motion_.pose().inverse() * view.T_stretch_head;
+    const PointTransform T_head_view(motion_.pose().inverse() * view.T_stretch_head);
     for (const SurfacePiece& seen : view.pieces) {
       const SurfacePiece piece = moved(seen, T_head_view);
       if (piece.point.norm() > longest_m) continue;

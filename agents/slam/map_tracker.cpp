@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace lifeline::slam {
@@ -17,10 +18,8 @@ std::vector<ScoredMatch> MapTracker::match(const WorkingMap& map, const TsdView&
   if (!needs_search(local, prediction)) return {{local, 0.0}};
 
   const StageTimer timer(times_ == nullptr ? nullptr : &times_->search);
-  std::vector<Place> places{
-      {local.T_map_head, score(view, local.T_map_head, prediction), PoseSource::map}};
-  add_places(map, view, pieces, prediction, places);
-  keep_rivals(places);
+  const std::vector<Place> places =
+      rivals_of(view, prediction, find_places(map, view, pieces, prediction, local.T_map_head));
   std::vector<ScoredMatch> matches;
   for (const Place& place : places) {
     const Pose2 pose = direct_.align(view, place.T_map_head, prediction, 2 * kTrialIterations);
@@ -51,36 +50,50 @@ Eigen::Matrix3d MapTracker::spread(const std::vector<ScoredMatch>& matches,
   return sum;
 }
 
-void MapTracker::add_places(const WorkingMap& map, const TsdView& view,
-                            std::span<const SurfacePiece> pieces, const Prediction& prediction,
-                            std::vector<Place>& places) {
-  double best = places.front().score;
-  for (const SearchCandidate& candidate : search_.search(map, pieces, prediction)) {
-    const Pose2 pose = direct_.align(view, candidate.T_map_head, prediction, kTrialIterations);
-    const double agreement = direct_.agreement(view, pose);
-    // Following the beams costs most of a score: not where keep_rivals() will drop the place
-    // anyway.
-    if (log_likelihood(agreement, pose, prediction) < best - config_.rival_score) continue;
-    const double fit = agreement - through_walls(view, pose);
-    places.push_back({pose, log_likelihood(fit, pose, prediction), PoseSource::search});
-    best = std::max(best, places.back().score);
-  }
+MapTracker::Place MapTracker::place_at(const TsdView& view, const Pose2& T_map_head,
+                                       PoseSource source, const Prediction& prediction) const {
+  const double fit = direct_.agreement(view, T_map_head);
+  return {T_map_head, source, fit, log_likelihood(fit, T_map_head, prediction)};
 }
 
-void MapTracker::keep_rivals(std::vector<Place>& places) const {
-  std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return a.score > b.score; });
-  const std::vector<Place> all = std::exchange(places, {});
-  for (const Place& place : all) {
-    if (place.score < all.front().score - config_.rival_score) break;
-    const bool is_new = std::none_of(places.begin(), places.end(), [&](const Place& other) {
-      const Pose2 apart = other.T_map_head.inverse() * place.T_map_head;
+std::vector<MapTracker::Place> MapTracker::find_places(const WorkingMap& map, const TsdView& view,
+                                                       std::span<const SurfacePiece> pieces,
+                                                       const Prediction& prediction,
+                                                       const Pose2& local) {
+  std::vector<Place> places{place_at(view, local, PoseSource::map, prediction)};
+  for (const SearchCandidate& candidate : search_.search(map, pieces, prediction)) {
+    const Pose2 pose = direct_.align(view, candidate.T_map_head, prediction, kTrialIterations);
+    places.push_back(place_at(view, pose, PoseSource::search, prediction));
+  }
+  return places;
+}
+
+std::vector<MapTracker::Place> MapTracker::rivals_of(const TsdView& view,
+                                                     const Prediction& prediction,
+                                                     std::vector<Place> places) const {
+  std::vector<Place> rivals;
+  double least = -std::numeric_limits<double>::infinity();
+  while (!places.empty() && rivals.size() <= static_cast<std::size_t>(config_.max_rivals)) {
+    const auto next =
+        std::max_element(places.begin(), places.end(),
+                         [](const Place& a, const Place& b) { return a.score < b.score; });
+    if (next->score < least) break;
+    const bool is_new = std::none_of(rivals.begin(), rivals.end(), [&](const Place& other) {
+      const Pose2 apart = other.T_map_head.inverse() * next->T_map_head;
       return apart.translation().norm() < config_.apart_m &&
              std::abs(apart.yaw_rad) < config_.apart_rad;
     });
-    if (is_new) places.push_back(place);
-    if (places.size() > static_cast<std::size_t>(config_.max_rivals)) break;
+    // Following the beams costs most of a score: only of places that come next if they lose nothing
+    // by it, and that no better one is the same as.
+    if (is_new && !next->beams_followed) {
+      follow_beams(view, prediction, least, *next);
+      continue;
+    }
+    if (is_new) rivals.push_back(*next);
+    places.erase(next);
+    least = rivals.front().score - config_.rival_score;
   }
+  return rivals;
 }
 
 bool MapTracker::needs_search(const MatchResult& local, const Prediction& prediction) const {
@@ -92,12 +105,20 @@ bool MapTracker::needs_search(const MatchResult& local, const Prediction& predic
 
 double MapTracker::score(const TsdView& view, const Pose2& T_map_head,
                          const Prediction& prediction) const {
-  const double fit = direct_.agreement(view, T_map_head) - through_walls(view, T_map_head);
-  return log_likelihood(fit, T_map_head, prediction);
+  Place place = place_at(view, T_map_head, PoseSource::map, prediction);
+  follow_beams(view, prediction, -std::numeric_limits<double>::infinity(), place);
+  return place.score;
 }
 
-double MapTracker::through_walls(const TsdView& view, const Pose2& T_map_head) const {
-  return config_.through_wall * direct_.seen_through_walls(view, T_map_head);
+void MapTracker::follow_beams(const TsdView& view, const Prediction& prediction, double least,
+                              Place& place) const {
+  // A little more than the share that leaves it `least`.
+  const double enough =
+      (place.score - least) / (search_.config().independent_points * config_.through_wall) + 1e-6;
+  const double share = direct_.seen_through_walls(view, place.T_map_head, enough);
+  place.fit -= config_.through_wall * share;
+  place.score = log_likelihood(place.fit, place.T_map_head, prediction);
+  place.beams_followed = true;
 }
 
 double MapTracker::log_likelihood(double fit, const Pose2& T_map_head,

@@ -66,21 +66,30 @@ class MapTracker {
                                           const Prediction& prediction);
   struct Place {
     Pose2 T_map_head;
-    double score;
     PoseSource source;
+    double fit;
+    double score;                 ///< the most it may be, as long as ...
+    bool beams_followed = false;  ///< ... what passes through walls is not taken off yet
   };
-  void add_places(const WorkingMap& map, const TsdView& view, std::span<const SurfacePiece> pieces,
-                  const Prediction& prediction, std::vector<Place>& places);
-  /// Best first, each a place of its own, none hopeless.
-  void keep_rivals(std::vector<Place>& places) const;
+  [[nodiscard]] Place place_at(const TsdView& view, const Pose2& T_map_head, PoseSource source,
+                               const Prediction& prediction) const;
+  /// The local match, and what the search finds beside it.
+  [[nodiscard]] std::vector<Place> find_places(const WorkingMap& map, const TsdView& view,
+                                               std::span<const SurfacePiece> pieces,
+                                               const Prediction& prediction, const Pose2& local);
+  /// The best first, each a place of its own, none hopeless.
+  [[nodiscard]] std::vector<Place> rivals_of(const TsdView& view, const Prediction& prediction,
+                                             std::vector<Place> places) const;
   /// What the rivals add to the covariance of one of them.
   [[nodiscard]] Eigen::Matrix3d spread(const std::vector<ScoredMatch>& matches,
                                        const ScoredMatch& about) const;
   /// Of a place where the scan fits so well, `fit` up to 1.
   [[nodiscard]] double log_likelihood(double fit, const Pose2& T_map_head,
                                       const Prediction& prediction) const;
-  /// What beams that pass through walls take off the fit.
-  [[nodiscard]] double through_walls(const TsdView& view, const Pose2& T_map_head) const;
+  /// Takes what passes through walls off the place's score. Where less than `least` is left, it
+  /// need not be known how much.
+  void follow_beams(const TsdView& view, const Prediction& prediction, double least,
+                    Place& place) const;
   [[nodiscard]] MatchResult judged(const TsdView& view, const Pose2& T_map_head, PoseSource source,
                                    const Prediction& prediction) const;
   [[nodiscard]] bool needs_search(const MatchResult& local, const Prediction& prediction) const;

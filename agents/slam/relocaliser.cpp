@@ -10,21 +10,9 @@
 namespace lifeline::slam {
 namespace {
 
-/// How far a place of the search's lattice may be off.
-constexpr double kLattice_m = 0.3;
-constexpr double kLattice_rad = 0.1;
-/// Walls are compared this far around the head.
-constexpr double kCompared_m = 12.0;
 constexpr std::size_t kMinPoints = 40;
 /// So many attempts near to the last known place for one in the whole map.
 constexpr int kNearAttempts = 3;
-/// A cell this near to a surface is a wall; one beyond the other is free.
-constexpr int kWall = TsdCell::kTsdOne * 35 / 100;
-constexpr int kFreeTsd = TsdCell::kTsdOne * 95 / 100;
-
-bool is_wall(TsdCell cell) {
-  return cell.known() && std::abs(int{cell.tsd}) <= kWall;
-}
 
 }  // namespace
 
@@ -41,6 +29,7 @@ void Relocaliser::begin(std::optional<Whereabouts> last) {
   near_in_vain_ = scans_since_last_ = 0;
   last_stretch_ = stretch_.number() + 1;  // it begins with the next scan
   map_is_stale_ = true;
+  attempt_.reset();
   agreement_ = {};
   outcome_ = AttemptOutcome::nothing;
 }
@@ -48,6 +37,7 @@ void Relocaliser::begin(std::optional<Whereabouts> last) {
 void Relocaliser::end() {
   begin();
   search_.clear();
+  seen_ = {};
 }
 
 std::optional<Pose2> Relocaliser::follow(std::span<const SurfacePiece> pieces,
@@ -60,11 +50,12 @@ std::optional<Pose2> Relocaliser::follow(std::span<const SurfacePiece> pieces,
 
 std::optional<RelocalisedPlace> Relocaliser::look(const WorkingMap& map, double heading_rad,
                                                   double heading_sigma_rad) {
-  if (!attempt_is_due()) return std::nullopt;
-  if (std::exchange(map_is_stale_, false)) search_.set_map(map);
-  const double window_rad = config_.heading_floor_rad + config_.heading_sigmas * heading_sigma_rad;
+  ++scans_since_attempt_;
+  if (attempt_ && attempt_->stretch != stretch_.number()) attempt_.reset();
+  if (!attempt_ && attempt_is_due()) begin_attempt(heading_rad, heading_sigma_rad);
+  if (!attempt_) return std::nullopt;
   RelocalisedPlace best;
-  const auto outcome = attempt(map, heading_rad, window_rad, best);
+  const auto outcome = go_on(map, best);
   if (!outcome) return std::nullopt;
   outcome_ = *outcome;
   if (outcome_ != AttemptOutcome::agreed) {
@@ -78,7 +69,6 @@ std::optional<RelocalisedPlace> Relocaliser::look(const WorkingMap& map, double 
 
 bool Relocaliser::attempt_is_due() {
   const Pose2 moved = T_stretch_attempt_.inverse() * stretch_.T_stretch_head();
-  ++scans_since_attempt_;
   if (attempt_stretch_ == stretch_.number() && scans_since_attempt_ < config_.attempt_scans &&
       moved.translation().norm() < config_.attempt_distance_m) {
     return false;
@@ -89,71 +79,84 @@ bool Relocaliser::attempt_is_due() {
   return true;
 }
 
-std::optional<AttemptOutcome> Relocaliser::attempt(const WorkingMap& map, double heading_rad,
-                                                   double window_rad, RelocalisedPlace& best) {
-  cloud_ = stretch_.cloud();
-  if (cloud_.size() < kMinPoints) return AttemptOutcome::nothing;
-  direct_.set_scan(cloud_);
+void Relocaliser::begin_attempt(double heading_rad, double heading_sigma_rad) {
+  take_cloud();
+  Attempt attempt;
+  attempt.stretch = stretch_.number();
+  attempt.scan = scans_since_last_;
+  attempt.T_stretch_head = stretch_.T_stretch_head();
+  attempt.heading_rad = heading_rad;
+  attempt.window_rad = config_.heading_floor_rad + config_.heading_sigmas * heading_sigma_rad;
+  for (const SurfacePiece& piece : cloud_) attempt.points.push_back(piece.point.cast<double>());
   if (is_near()) {
     const double way_m = stretch_.T_stretch_head().translation().norm();
-    const SearchCircle near{last_->T_map_head.translation(), last_->reach_m + way_m,
-                            config_.near_agreement};
-    const AttemptOutcome outcome = look_round(map, heading_rad, window_rad, near, best);
-    if (outcome != AttemptOutcome::nothing) return outcome;
-    // It may be further off after all; but two searches at each attempt would take too long.
-    if (++near_in_vain_ % kNearAttempts != 0) return std::nullopt;
+    attempt.near = SearchCircle{last_->T_map_head.translation(), last_->reach_m + way_m,
+                                config_.near_agreement};
   }
-  return look_round(map, heading_rad, window_rad, {}, best);
+  attempt_ = std::move(attempt);
 }
 
-AttemptOutcome Relocaliser::look_round(const WorkingMap& map, double heading_rad, double window_rad,
-                                       const std::optional<SearchCircle>& near,
-                                       RelocalisedPlace& best) {
-  std::vector<Eigen::Vector2d> points;
-  for (const SurfacePiece& piece : cloud_) points.push_back(piece.point.cast<double>());
-  const GlobalSearchResult found = search_.search(points, heading_rad, window_rad, near);
+void Relocaliser::take_cloud() {
+  cloud_ = stretch_.cloud();
+  direct_.set_scan(cloud_);
+}
+
+std::optional<AttemptOutcome> Relocaliser::go_on(const WorkingMap& map, RelocalisedPlace& best) {
+  SearchWork work = config_.work_per_scan;
+  if (attempt_->points.size() < kMinPoints) {
+    attempt_.reset();
+    return AttemptOutcome::nothing;
+  }
+  while (search(map, work)) {
+    const AttemptOutcome outcome = look_at_found(map, best);
+    const bool was_near = attempt_->near.has_value();
+    // It may be further off after all; but two searches at each attempt would take too long.
+    const bool is_vain = was_near && outcome == AttemptOutcome::nothing;
+    if (is_vain && ++near_in_vain_ % kNearAttempts == 0) {
+      attempt_->near.reset();
+      attempt_->searches = false;
+      continue;
+    }
+    attempt_.reset();
+    return is_vain ? std::nullopt : std::optional(outcome);
+  }
+  return std::nullopt;
+}
+
+/// Goes on with the search of the attempt; whether it is done.
+bool Relocaliser::search(const WorkingMap& map, SearchWork& work) {
+  if (!attempt_->has_map) {
+    if (std::exchange(map_is_stale_, false)) search_.begin_map(map);
+    if (!search_.advance_map(map, work)) return false;
+    attempt_->has_map = true;
+  }
+  if (!attempt_->searches) {
+    search_.begin(attempt_->points, attempt_->heading_rad, attempt_->window_rad, attempt_->near);
+    attempt_->searches = true;
+  }
+  return search_.advance(work);
+}
+
+AttemptOutcome Relocaliser::look_at_found(const WorkingMap& map, RelocalisedPlace& best) {
+  const GlobalSearchResult found = search_.result();
+  Pose2 T_begun_now;
+  if (attempt_->scan != scans_since_last_) {
+    T_begun_now = attempt_->T_stretch_head.inverse() * stretch_.T_stretch_head();
+    take_cloud();
+  }
+  if (!found.candidates.empty()) note_seen();
   const double reach_m = reach_of(cloud_);
   std::vector<RelocalisedPlace> places;
   for (const GlobalCandidate& candidate : found.candidates) {
-    places.push_back(look_at(map, candidate.T_map_head, reach_m));
+    places.push_back(look_at(map, candidate.T_map_head * T_begun_now, reach_m));
   }
-  if (near) {
+  const bool was_near = attempt_->near.has_value();
+  if (was_near) {
     std::erase_if(places, [&](const RelocalisedPlace& place) {
       return from_last_m(place.T_map_head) > last_->reach_m;
     });
   }
-  return judge(std::move(places), found.complete, near ? config_.near : config_.anywhere, best);
-}
-
-AttemptOutcome Relocaliser::judge(std::vector<RelocalisedPlace> places, bool complete,
-                                  const PlaceDemands& demands, RelocalisedPlace& best) const {
-  if (places.empty()) return AttemptOutcome::nothing;
-  std::stable_sort(places.begin(), places.end(),
-                   [](const auto& a, const auto& b) { return a.quality > b.quality; });
-  best = places.front();
-  if (!is_good(best, demands)) return AttemptOutcome::nothing;
-  if (!complete) return AttemptOutcome::ambiguous;
-  if (is_alone(best, places)) return AttemptOutcome::agreed;
-  // Of equal places, the one where the helmet was moments ago.
-  const double least = best.quality - config_.margin;
-  std::erase_if(places, [&](const RelocalisedPlace& place) {
-    return place.quality <= least || from_last_m(place.T_map_head) > config_.stayed_m;
-  });
-  if (places.empty() || !is_good(places.front(), demands) || !is_alone(places.front(), places)) {
-    return AttemptOutcome::ambiguous;
-  }
-  best = places.front();
-  return AttemptOutcome::agreed;
-}
-
-bool Relocaliser::is_alone(const RelocalisedPlace& place,
-                           const std::vector<RelocalisedPlace>& places) const {
-  return std::none_of(places.begin(), places.end(), [&](const RelocalisedPlace& other) {
-    const Pose2 apart = place.T_map_head.inverse() * other.T_map_head;
-    const bool is_other =
-        apart.translation().norm() > config_.same_m || std::abs(apart.yaw_rad) > config_.same_rad;
-    return is_other && other.quality > place.quality - config_.margin;
-  });
+  return judge(std::move(places), found.complete, was_near ? config_.near : config_.anywhere, best);
 }
 
 bool Relocaliser::is_last_known() const {
@@ -175,52 +178,6 @@ double Relocaliser::way_needed_m(const Pose2& T_map_head) const {
   const double from_last = from_last_m(T_map_head);
   if (from_last <= config_.stayed_m) return 0.0;
   return is_near() && from_last <= last_->reach_m ? config_.near_moved_m : config_.moved_m;
-}
-
-RelocalisedPlace Relocaliser::look_at(const WorkingMap& map, const Pose2& T_map_head,
-                                      double reach_m) {
-  const Prediction loose{T_map_head, kLattice_m, kLattice_rad};
-  view_.assign(map, T_map_head.translation(), std::max(reach_m, kCompared_m) + 1.0);
-  RelocalisedPlace place;
-  place.T_map_head = direct_.align(view_, loose);
-  place.evidence = direct_.judge(view_, place.T_map_head, loose);
-  place.gone_share = gone_share(place.T_map_head);
-  place.quality = direct_.agreement(view_, place.T_map_head) - place.gone_share;
-  return place;
-}
-
-double Relocaliser::gone_share(const Pose2& T_map_head) const {
-  const TsdGrid& seen = stretch_.layer();
-  const Pose2 T_map_stretch = T_map_head * stretch_.T_stretch_head().inverse();
-  const Eigen::Vector2d head = stretch_.T_stretch_head().translation();
-  int standing = 0, gone = 0;
-  for (const TileIndex tile : seen.tiles()) {
-    const CellIndex first = first_cell(tile);
-    const TsdTile& cells = *seen.find(tile);
-    for (int y = 0; y < kTileSide; y += 2) {
-      for (int x = 0; x < kTileSide; x += 2) {
-        const TsdCell now = cells[offset_in_tile({x, y})];
-        const bool free = now.known() && now.tsd > kFreeTsd;
-        if (!free && !is_wall(now)) continue;
-        const Eigen::Vector2d p = seen.centre_of({first.x + x, first.y + y});
-        if ((p - head).squaredNorm() > kCompared_m * kCompared_m) continue;
-        const Pose2 at = view_.to_view({(T_map_stretch * p).x(), (T_map_stretch * p).y(), 0.0});
-        const TsdCell then = view_.cell(static_cast<std::int32_t>(std::floor(at.x_m)),
-                                        static_cast<std::int32_t>(std::floor(at.y_m)));
-        if (!is_wall(then)) continue;
-        ++(free ? gone : standing);
-      }
-    }
-  }
-  return gone > 0 ? static_cast<double>(gone) / (gone + standing) : 0.0;
-}
-
-bool Relocaliser::is_good(const RelocalisedPlace& place, const PlaceDemands& demands) const {
-  const MatchEvidence& evidence = place.evidence;
-  return evidence.known >= demands.min_known_share * evidence.points &&
-         evidence.inlier_share() >= config_.min_inlier_share &&
-         evidence.conflicts <= demands.max_conflict_share * evidence.known &&
-         place.gone_share <= config_.max_gone_share;
 }
 
 bool Relocaliser::agrees(const Pose2& T_map_head) {

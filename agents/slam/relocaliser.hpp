@@ -41,6 +41,8 @@ struct RelocaliseConfig {
   double near_agreement = 0.35;  ///< that a place must have to be looked at
   double near_moved_m = 0.5;     ///< way over which the attempts agree
   int near_scans = 100;          ///< after these where it was last is no evidence any more
+  /// Of the search, for one scan: a longer one goes on with the next scans.
+  SearchWork work_per_scan = 8'000'000;
 };
 
 /// Where a helmet was known to be moments ago.
@@ -68,7 +70,8 @@ enum class AttemptOutcome {
 /// Finds a helmet's place again in its working map, wherever it is. Follows the helmet on a stretch
 /// of its own (LostStretch), searches the whole map for what was seen on it, looks at the best
 /// places closely, and believes one only if nothing speaks against it, no other comes near it, and
-/// several attempts over some way agree. One owner.
+/// several attempts over some way agree. A search that takes longer than one scan may goes on with
+/// the next; what it finds is moved along with the head (docs/decisions/0212). One owner.
 class Relocaliser {
  public:
   Relocaliser(RelocaliseConfig config, GridGeometry geometry, PushConfig push, MotionConfig motion,
@@ -95,22 +98,34 @@ class Relocaliser {
   [[nodiscard]] AttemptOutcome last_outcome() const { return outcome_; }
 
  private:
+  /// One attempt, from when it begins until its searches are done.
+  struct Attempt {
+    int stretch = 0;
+    int scan = 0;  ///< when it began, as all that follows
+    Pose2 T_stretch_head;
+    double heading_rad = 0.0;
+    double window_rad = 0.0;
+    std::vector<Eigen::Vector2d> points;
+    bool has_map = false;
+    std::optional<SearchCircle> near;  ///< where is searched; in the whole map, if empty
+    bool searches = false;
+  };
   [[nodiscard]] bool attempt_is_due();
-  /// Empty: nothing near to the last place, and not yet time to look in the whole map.
-  [[nodiscard]] std::optional<AttemptOutcome> attempt(const WorkingMap& map, double heading_rad,
-                                                      double window_rad, RelocalisedPlace& best);
+  void begin_attempt(double heading_rad, double heading_sigma_rad);
+  /// Goes on with the attempt; what it came to, once it is done.
+  [[nodiscard]] std::optional<AttemptOutcome> go_on(const WorkingMap& map, RelocalisedPlace& best);
+  [[nodiscard]] bool search(const WorkingMap& map, SearchWork& work);
+  void take_cloud();
+  /// The best of the places that the search found, as seen from where the head is now.
+  [[nodiscard]] AttemptOutcome look_at_found(const WorkingMap& map, RelocalisedPlace& best);
   [[nodiscard]] RelocalisedPlace look_at(const WorkingMap& map, const Pose2& T_map_head,
                                          double reach_m);
+  void note_seen();
   [[nodiscard]] double gone_share(const Pose2& T_map_head) const;
   [[nodiscard]] bool is_good(const RelocalisedPlace& place, const PlaceDemands& demands) const;
   /// No other of the places comes near it in quality.
   [[nodiscard]] bool is_alone(const RelocalisedPlace& place,
                               const std::vector<RelocalisedPlace>& places) const;
-  /// The best places that a search finds, in the whole map or where the helmet can have got to.
-  [[nodiscard]] AttemptOutcome look_round(const WorkingMap& map, double heading_rad,
-                                          double window_rad,
-                                          const std::optional<SearchCircle>& near,
-                                          RelocalisedPlace& best);
   [[nodiscard]] AttemptOutcome judge(std::vector<RelocalisedPlace> places, bool complete,
                                      const PlaceDemands& demands, RelocalisedPlace& best) const;
   /// How far a helmet that is here now was from where it was last known, when its stretch began.
@@ -133,7 +148,14 @@ class Relocaliser {
   int scans_since_last_ = 0;
   int near_in_vain_ = 0;  ///< attempts that found nothing there
   int last_stretch_ = 0;  ///< the stretch that began there
+  std::optional<Attempt> attempt_;
   std::vector<SurfacePiece> cloud_;
+  /// A cell of the stretch that tells of the map's walls: free now, or a wall.
+  struct SeenCell {
+    CellIndex index;
+    bool is_free;
+  };
+  std::vector<SeenCell> seen_;
   /// What the attempts so far agree on.
   struct Agreement {
     int attempts = 0;

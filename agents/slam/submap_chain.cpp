@@ -24,6 +24,12 @@ void SubmapChain::start(std::span<const SurfacePiece> pieces, TsdUpdater& update
   draw(pieces, updater);
 }
 
+void SubmapChain::end() {
+  older_ = {};
+  newer_ = {};
+  tracker_.forget_all();
+}
+
 GraphEdge SubmapChain::add(std::size_t index, const Keyframe& keyframe,
                            std::span<const SurfacePiece> pieces, TsdUpdater& updater) {
   const Pose2& step = keyframe.T_previous_this;

@@ -43,6 +43,8 @@ class SubmapChain {
   [[nodiscard]] GraphEdge add(std::size_t index, const Keyframe& keyframe,
                               std::span<const SurfacePiece> pieces, TsdUpdater& updater);
   void start(std::span<const SurfacePiece> pieces, TsdUpdater& updater);
+  /// No more keyframes will come: frees the submaps.
+  void end();
 
  private:
   /// The map of a stretch of the path, in the frame of its first keyframe.

@@ -141,6 +141,7 @@ bool TsdSlam::apply(std::size_t keyframes, const std::function<MapCorrection()>&
   if (resumed_ || !keyframes_.can_rebase(keyframes)) return false;
   for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
   map_.own().clear();
+  tracker_.forget_all();
   MapCorrection correction = work_out();
   LIFELINE_CHECK(correction.T_map_head.size() == keyframes);
   const auto T_new_old = keyframes_.rebase(correction);
@@ -153,7 +154,6 @@ bool TsdSlam::apply(std::size_t keyframes, const std::function<MapCorrection()>&
   }
   for (const TileIndex tile : map_.own().tiles()) changed_.insert(tile);
   map_.note_own_changed(std::vector<TileIndex>(changed_.begin(), changed_.end()));
-  tracker_.forget_all();
   relocaliser_.map_changed();
   for (Story& story : stories_) {
     story.motion.move(*T_new_old);

@@ -8,8 +8,6 @@
 
 #include <png.h>
 
-#include "common/base/check.hpp"
-#include "common/files/atomic_file.hpp"
 #include "common/files/read_file.hpp"
 
 namespace lifeline::files {
@@ -106,14 +104,6 @@ Result<GreyImage> read_grey_image(const std::filesystem::path& file) {
   if (content->starts_with("\x89PNG")) return decode_png(file.string(), *content);
   return fail(ErrorCode::unsupported, "{}: neither a binary PGM (P5) nor a PNG; convert it",
               file.string());
-}
-
-Result<void> write_pgm(const std::filesystem::path& file, const GreyImage& image) {
-  LIFELINE_CHECK(image.shades.size() ==
-                 static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  std::string content = fmt::format("P5\n{} {}\n255\n", image.width, image.height);
-  content.append(image.shades.begin(), image.shades.end());
-  return write_file_atomically(file, content);
 }
 
 }  // namespace lifeline::files

@@ -25,7 +25,4 @@ struct GreyImage {
 /// that ends too early is refused whole.
 [[nodiscard]] Result<GreyImage> read_grey_image(const std::filesystem::path& file);
 
-/// The image as binary PGM.
-[[nodiscard]] Result<void> write_pgm(const std::filesystem::path& file, const GreyImage& image);
-
 }  // namespace lifeline::files

@@ -162,6 +162,21 @@ OccupancyGrid to_grid(const GreyImage& image, const Description& description) {
   return grid;
 }
 
+/// Row by row from above: the picture of a large map is as large as the map.
+Result<void> write_pgm(const std::filesystem::path& name, const OccupancyGrid& grid) {
+  auto file = AtomicFile::create(name);
+  if (!file) return forward_error(file);
+  std::string row = fmt::format("P5\n{} {}\n255\n", grid.columns, grid.rows);
+  for (int above = grid.rows - 1; above >= 0; --above) {
+    for (int column = 0; column < grid.columns; ++column) {
+      row.push_back(static_cast<char>(shade_of(grid.at(column, above))));
+    }
+    if (const auto appended = file->append(row); !appended) return appended;
+    row.clear();
+  }
+  return file->commit();
+}
+
 }  // namespace
 
 Result<void> write_occupancy_image(const std::filesystem::path& name, const OccupancyGrid& grid) {
@@ -169,14 +184,7 @@ Result<void> write_occupancy_image(const std::filesystem::path& name, const Occu
   if (grid.columns <= 0 || grid.rows <= 0) {
     return fail(ErrorCode::wrong_use, "{}: the map is empty; nothing was written", image_file);
   }
-  GreyImage image{grid.columns, grid.rows, {}, {}};
-  image.shades.reserve(grid.cells.size());
-  for (int row = grid.rows - 1; row >= 0; --row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      image.shades.push_back(shade_of(grid.at(column, row)));
-    }
-  }
-  if (const auto written = write_pgm(image_file, image); !written) return written;
+  if (const auto written = write_pgm(image_file, grid); !written) return written;
   // The description last: where it stands, its image stands too.
   return write_file_atomically(
       name.string() + ".yaml",

@@ -33,6 +33,12 @@ inline void store_cells(IntLanes lanes, TsdCell* cells) {
   std::memcpy(static_cast<void*>(cells), &lanes, sizeof lanes);
 }
 
+/// TsdCell::value() of each.
+[[nodiscard]] inline FloatLanes values_of(IntLanes cells) {
+  return __builtin_convertvector((cells << 16) >> 16, FloatLanes) *
+         (1.0F / static_cast<float>(TsdCell::kTsdOne));
+}
+
 [[nodiscard]] inline bool any(IntLanes lanes) {
   using Halves = std::int64_t __attribute__((vector_size(16)));
   const auto halves = std::bit_cast<Halves>(lanes);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
+#include "common/base/cpu_clones.hpp"
 #include "common/grid/cell_lanes.hpp"
 
 namespace lifeline {
@@ -23,6 +25,17 @@ Interval solve(float slope, float constant, float low, float high) {
   }
   const float a = (low - constant) / slope, b = (high - constant) / slope;
   return {std::min(a, b), std::max(a, b)};
+}
+
+/// Fills those of `count` cells that hold nothing yet.
+LIFELINE_ALSO_FOR_AVX2
+void fill_unknown(TsdCell* cells, std::int32_t count, std::int32_t filled) {
+  for (std::int32_t i = 0; i < count; ++i) {
+    std::int32_t cell;
+    std::memcpy(&cell, cells + i, sizeof cell);
+    cell = cell <= kTsdBits ? filled : cell;
+    std::memcpy(static_cast<void*>(cells + i), &cell, sizeof cell);
+  }
 }
 
 float reach_of(std::span<const SurfacePiece> pieces) {
@@ -104,7 +117,7 @@ ScanRaster::Tile* ScanRaster::add_tile(TileIndex local, std::int32_t& slot) {
 }
 
 template <typename Use>
-void ScanRaster::each_four(std::int32_t row, std::int32_t first, std::int32_t last, Use&& use) {
+void ScanRaster::each_stretch(std::int32_t row, std::int32_t first, std::int32_t last, Use&& use) {
   first = std::max(first, 0);
   last = std::min(last, columns_ * kTileSide - 1);
   for (std::int32_t x = first; x <= last;) {
@@ -115,11 +128,7 @@ void ScanRaster::each_four(std::int32_t row, std::int32_t first, std::int32_t la
       const auto r = static_cast<std::size_t>(row & (kTileSide - 1));
       tile->first[r] = std::min(tile->first[r], static_cast<std::uint8_t>(x - corner));
       tile->last[r] = std::max(tile->last[r], static_cast<std::uint8_t>(end - corner));
-      TsdCell* cells = tile->cells.data() + r * kTileSide;
-      for (std::int32_t four = x / kLanes * kLanes; four < end; four += kLanes) {
-        const IntLanes here = count_from(four);
-        use(cells + (four - corner), here, (here >= x) & (here < end));
-      }
+      use(tile->cells.data() + r * kTileSide, corner, x, end);
     }
     x = end;
   }
@@ -146,7 +155,7 @@ void ScanRaster::draw_row(const DrawnPiece& piece, std::int32_t row, std::int32_
                           std::int32_t last) {
   const float along_y = (static_cast<float>(row) + 0.5F - piece.point.y()) * piece.normal.y();
   const IntLanes most = IntLanes{} + TsdCell::kTsdOne;
-  each_four(row, first, last, [&](TsdCell* cells, IntLanes x, IntLanes inside) {
+  const auto draw_four = [&](TsdCell* cells, IntLanes x, IntLanes inside) {
     const FloatLanes d =
         (__builtin_convertvector(x, FloatLanes) + 0.5F - piece.point.x()) * piece.normal.x() +
         along_y;
@@ -160,19 +169,25 @@ void ScanRaster::draw_row(const DrawnPiece& piece, std::int32_t row, std::int32_
     const IntLanes is_nearer = (was <= kTsdBits) | (magnitude(tsd) < magnitude(was_tsd));
     const IntLanes drawn = inside & (weight != 0) & is_nearer;
     store_cells(choose(drawn, (weight << 16) | (tsd & kTsdBits), was), cells);
-  });
+  };
+  each_stretch(row, first, last,
+               [&](TsdCell* cells, std::int32_t corner, std::int32_t x, std::int32_t end) {
+                 for (std::int32_t four = x / kLanes * kLanes; four < end; four += kLanes) {
+                   const IntLanes here = count_from(four);
+                   draw_four(cells + (four - corner), here, (here >= x) & (here < end));
+                 }
+               });
 }
 
 void ScanRaster::fill_outline(float weight) {
   const TsdCell free{TsdCell::kTsdOne,
                      static_cast<std::uint16_t>(std::lround(weight * TsdCell::kWeightOne))};
   if (free.weight == 0) return;
-  const IntLanes filled = IntLanes{} + std::bit_cast<std::int32_t>(free);
   for (const FreeOutline::Run& run : outline_.runs(rows_ * kTileSide)) {
-    each_four(run.row, run.first, run.last, [&](TsdCell* cells, IntLanes, IntLanes inside) {
-      const IntLanes was = load_cells(cells);
-      store_cells(choose(inside & (was <= kTsdBits), filled, was), cells);
-    });
+    each_stretch(run.row, run.first, run.last,
+                 [&](TsdCell* cells, std::int32_t corner, std::int32_t x, std::int32_t end) {
+                   fill_unknown(cells + (x - corner), end - x, std::bit_cast<std::int32_t>(free));
+                 });
   }
 }
 

@@ -57,10 +57,10 @@ class ScanRaster {
   void draw_piece(const DrawnPiece& piece);
   void draw_row(const DrawnPiece& piece, std::int32_t row, std::int32_t first, std::int32_t last);
   void fill_outline(float weight);
-  /// Calls use(cells, x, inside) for each four cells of a row that any of the cells first ... last
-  /// is among: where they are, and which of them are meant.
+  /// Calls use(cells, corner, x, end) for each tile's share of the cells first ... last of a row:
+  /// the tile's cells of that row, the first of which is cell `corner`, and [x, end) of them.
   template <typename Use>
-  void each_four(std::int32_t row, std::int32_t first, std::int32_t last, Use&& use);
+  void each_stretch(std::int32_t row, std::int32_t first, std::int32_t last, Use&& use);
   /// The tile at this place of the directory; nullptr outside of it and of the map's range.
   [[nodiscard]] Tile* tile_at(TileIndex local);
   [[nodiscard]] Tile* add_tile(TileIndex local, std::int32_t& slot);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "common/grid/point_transform.hpp"
 #include "common/grid/scan2.hpp"
 
 namespace lifeline {
@@ -26,6 +27,13 @@ struct SurfacePiece {
   SurfaceLink link = SurfaceLink::none;  ///< to the piece before it; of the first, to the last
   bool has_normal = false;  ///< from neighbours; else the normal points back along the beam
 };
+
+/// The piece in another frame.
+[[nodiscard]] inline SurfacePiece moved(SurfacePiece piece, const PointTransform& T_a_b) {
+  piece.point = (T_a_b * piece.point.cast<double>()).cast<float>();
+  piece.normal = T_a_b.turned(piece.normal.cast<double>()).cast<float>();
+  return piece;
+}
 
 struct SurfaceConfig {
   float merge_m = 0.025F;          ///< hits closer together than this become one piece

@@ -1,9 +1,12 @@
 #include "common/grid/tsd_update.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 #include "common/base/check.hpp"
+#include "common/base/cpu_clones.hpp"
 #include "common/grid/cell_lanes.hpp"
 
 namespace lifeline {
@@ -15,19 +18,65 @@ enum class Merge {
   unequal,  ///< some distance moves: not done
 };
 
-/// Merges kLanes cells that are not seen, seen for the first time, or seen just as they are: most
+/// Merges kCount cells that are not seen, seen for the first time, or seen just as they are: most
 /// of all, free space. Only weights grow.
-Merge merge_equals(const TsdCell* seen, TsdCell* cells, int weight_cap) {
-  const IntLanes was = load_cells(cells), is = load_cells(seen), cap = IntLanes{} + weight_cap;
-  const IntLanes is_known = was > kTsdBits, is_seen = is > kTsdBits;
-  if (any(is_known & is_seen & ((was ^ is) << 16))) return Merge::unequal;
-  const IntLanes sum = (was >> 16) + (is >> 16);
-  const IntLanes weight = choose(sum > cap, cap, sum);
-  const IntLanes tsd = (was | is) & kTsdBits;  // that of an unknown cell is 0
-  const IntLanes after = choose(is_seen, (weight << 16) | tsd, was);
-  if (!any(after ^ was)) return Merge::nothing;
-  store_cells(after, cells);
+template <std::size_t kCount>
+inline Merge merge_equals(const TsdCell* seen, TsdCell* cells, std::int32_t weight_cap) {
+  std::array<std::int32_t, kCount> was, is, after;
+  std::memcpy(was.data(), cells, sizeof was);
+  std::memcpy(is.data(), seen, sizeof is);
+  std::int32_t moved = 0, changed = 0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const bool both = was[i] > kTsdBits && is[i] > kTsdBits;
+    moved |= both ? (was[i] ^ is[i]) & kTsdBits : 0;
+    const std::int32_t weight = std::min((was[i] >> 16) + (is[i] >> 16), weight_cap);
+    const std::int32_t tsd = (was[i] | is[i]) & kTsdBits;  // that of an unknown cell is 0
+    after[i] = is[i] > kTsdBits ? (weight << 16) | tsd : was[i];
+    changed |= after[i] ^ was[i];
+  }
+  if (moved != 0) return Merge::unequal;
+  if (changed == 0) return Merge::nothing;
+  std::memcpy(static_cast<void*>(cells), after.data(), sizeof after);
   return Merge::done;
+}
+
+inline bool merge_each(const TsdCell* seen, TsdCell* cells, std::size_t count, Looks looks,
+                       int weight_cap) {
+  bool changed = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const TsdCell before = cells[i];
+    const TsdCell after = looks == Looks::dense ? updated_densely(before, seen[i], weight_cap)
+                                                : updated(before, seen[i], weight_cap);
+    if (after == before) continue;
+    cells[i] = after;
+    changed = true;
+  }
+  return changed;
+}
+
+/// Whether any cell changed.
+LIFELINE_ALSO_FOR_AVX2
+bool merge_tile(const ScanRaster::Tile& seen, TsdTile& tile, Looks looks, int weight_cap) {
+  constexpr std::size_t kMany = 16, kFew = 4;
+  static_assert(kTileSide % kMany == 0);
+  bool changed = false;
+  for (std::size_t row = 0; row < kTileSide; ++row) {
+    // Beside the drawn columns nothing is seen, and nothing is changed.
+    const std::size_t first = row * kTileSide + std::size_t{seen.first[row]} / kMany * kMany;
+    const std::size_t end = row * kTileSide + seen.last[row];
+    for (std::size_t i = first; i < end; i += kMany) {
+      const Merge merged = merge_equals<kMany>(&seen.cells[i], &tile[i], weight_cap);
+      changed |= merged == Merge::done;
+      if (merged != Merge::unequal) continue;
+      for (std::size_t k = i; k < i + kMany; k += kFew) {
+        const Merge few = merge_equals<kFew>(&seen.cells[k], &tile[k], weight_cap);
+        changed |= few == Merge::done;
+        if (few != Merge::unequal) continue;
+        changed |= merge_each(&seen.cells[k], &tile[k], kFew, looks, weight_cap);
+      }
+    }
+  }
+  return changed;
 }
 
 }  // namespace
@@ -48,40 +97,11 @@ std::span<const TileIndex> TsdUpdater::push(std::span<const SurfacePiece> pieces
   changed_.clear();
   raster_.draw(pieces, T_map_head, static_cast<float>(weight));
   for (const auto& seen : raster_.tiles()) {
-    if (merge(*seen, grid.at(seen->index), looks)) changed_.push_back(seen->index);
+    if (merge_tile(*seen, grid.at(seen->index), looks, weight_cap_))
+      changed_.push_back(seen->index);
   }
   std::sort(changed_.begin(), changed_.end());
   return changed_;
-}
-
-bool TsdUpdater::merge(const ScanRaster::Tile& seen, TsdTile& tile, Looks looks) const {
-  bool changed = false;
-  for (std::size_t row = 0; row < kTileSide; ++row) {
-    // Beside the drawn columns nothing is seen, and nothing is changed.
-    const std::size_t first = row * kTileSide + std::size_t{seen.first[row]} / kLanes * kLanes;
-    const std::size_t end = row * kTileSide + seen.last[row];
-    for (std::size_t i = first; i < end; i += kLanes) {
-      Merge merged = merge_equals(&seen.cells[i], &tile[i], weight_cap_);
-      if (merged == Merge::unequal && merge_each(&seen.cells[i], &tile[i], looks)) {
-        merged = Merge::done;
-      }
-      changed = changed || merged == Merge::done;
-    }
-  }
-  return changed;
-}
-
-bool TsdUpdater::merge_each(const TsdCell* seen, TsdCell* cells, Looks looks) const {
-  bool changed = false;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const TsdCell before = cells[i];
-    const TsdCell after = looks == Looks::dense ? updated_densely(before, seen[i], weight_cap_)
-                                                : updated(before, seen[i], weight_cap_);
-    if (after == before) continue;
-    cells[i] = after;
-    changed = true;
-  }
-  return changed;
 }
 
 }  // namespace lifeline

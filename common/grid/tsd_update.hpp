@@ -90,9 +90,6 @@ class TsdUpdater {
                                   double weight, TsdGrid& grid, Looks looks = Looks::sparse);
 
  private:
-  [[nodiscard]] bool merge(const ScanRaster::Tile& seen, TsdTile& tile, Looks looks) const;
-  [[nodiscard]] bool merge_each(const TsdCell* seen, TsdCell* cells, Looks looks) const;
-
   GridGeometry geometry_;
   int weight_cap_;
   ScanRaster raster_;

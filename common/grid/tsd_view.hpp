@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,7 +37,7 @@ class TsdView {
     set_bounds(map.geometry(), centre_map, reach_m);
     for (std::int32_t y = 0; y < rows_; ++y) {
       for (std::int32_t x = 0; x < columns_; ++x) {
-        tiles_.push_back(map.find({first_.x + x, first_.y + y}));
+        tiles_[slot_of(x, y)] = map.find({first_.x + x, first_.y + y});
       }
     }
   }
@@ -57,13 +58,26 @@ class TsdView {
   /// The tile at this place of the rectangle; nullptr where there is none, and outside.
   [[nodiscard]] const TsdTile* tile(std::int32_t column, std::int32_t row) const {
     if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return nullptr;
-    return tiles_[static_cast<std::size_t>(row * columns_ + column)];
+    return tiles_[slot_of(column, row)];
   }
 
   /// The cell, counted from the view's corner.
   [[nodiscard]] TsdCell cell(std::int32_t x, std::int32_t y) const {
     const TsdTile* found = tile(x >> 6, y >> 6);
     return found == nullptr ? TsdCell{} : (*found)[offset_in_tile({x, y})];
+  }
+
+  /// Four cells at once, as load_cells() gives them.
+  [[nodiscard]] IntLanes four_cells(IntLanes x, IntLanes y) const {
+    const IntLanes slots = slots_of(x, y), offsets = ((y & 63) << 6) | (x & 63);
+    std::array<TsdCell, 4> cells{};
+    for (int k = 0; k < kLanes; ++k) {
+      const TsdTile* found = tiles_[static_cast<std::size_t>(slots[k])];
+      if (found != nullptr) {
+        cells[static_cast<std::size_t>(k)] = (*found)[static_cast<std::size_t>(offsets[k])];
+      }
+    }
+    return std::bit_cast<IntLanes>(cells);
   }
 
   /// Bilinear between the four cell centres around (x, y), in cells from the view's corner; false
@@ -102,9 +116,20 @@ class TsdView {
   };
   [[nodiscard]] FourSamples sample_four(FloatLanes x, FloatLanes y) const {
     const IntLanes i = floor_of(x - 0.5F), j = floor_of(y - 0.5F);
-    std::array<FloatLanes, 4> corners;  // of one place each: c00, c10, c01, c11, as bits
+    const IntLanes slots = slots_of(i, j), offsets = ((j & 63) << 6) | (i & 63);
+    const IntLanes between_tiles = ((i & 63) == 63) | ((j & 63) == 63);
+    std::array<FloatLanes, 4> corners{};  // of one place each: c00, c10, c01, c11, as bits
     for (int k = 0; k < kLanes; ++k) {
-      corners[static_cast<std::size_t>(k)] = std::bit_cast<FloatLanes>(four_cells(i[k], j[k]));
+      FloatLanes& of_place = corners[static_cast<std::size_t>(k)];
+      if (between_tiles[k] != 0) {
+        of_place = std::bit_cast<FloatLanes>(cells_between(i[k], j[k]));
+      } else if (const TsdTile* found = tiles_[static_cast<std::size_t>(slots[k])]) {
+        std::array<TsdCell, 4> cells;
+        const TsdCell* corner = found->data() + offsets[k];
+        std::memcpy(cells.data(), corner, 2 * sizeof(TsdCell));
+        std::memcpy(cells.data() + 2, corner + kTileSide, 2 * sizeof(TsdCell));
+        of_place = std::bit_cast<FloatLanes>(cells);
+      }
     }
     transpose(corners);  // now each is one corner of all four places
     IntLanes known = IntLanes{} - 1;
@@ -112,8 +137,7 @@ class TsdView {
     for (std::size_t corner = 0; corner < v.size(); ++corner) {
       const auto cells = std::bit_cast<IntLanes>(corners[corner]);
       known &= cells > kTsdBits;
-      v[corner] = __builtin_convertvector((cells << 16) >> 16, FloatLanes) *
-                  (1.0F / static_cast<float>(TsdCell::kTsdOne));
+      v[corner] = values_of(cells);
     }
     const FloatLanes a = x - 0.5F - __builtin_convertvector(i, FloatLanes);
     const FloatLanes b = y - 0.5F - __builtin_convertvector(j, FloatLanes);
@@ -124,18 +148,21 @@ class TsdView {
   }
 
  private:
-  /// The cells (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1).
-  [[nodiscard]] IntLanes four_cells(std::int32_t i, std::int32_t j) const {
-    std::array<TsdCell, 4> cells{};
-    if ((i & 63) != 63 && (j & 63) != 63) {  // all in one tile
-      if (const TsdTile* found = tile(i >> 6, j >> 6)) {
-        const TsdCell* corner = found->data() + offset_in_tile({i, j});
-        cells = {corner[0], corner[1], corner[kTileSide], corner[kTileSide + 1]};
-      }
-    } else {
-      cells = {cell(i, j), cell(i + 1, j), cell(i, j + 1), cell(i + 1, j + 1)};
-    }
+  /// The cells (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1), wherever they are.
+  [[nodiscard]] IntLanes cells_between(std::int32_t i, std::int32_t j) const {
+    const std::array<TsdCell, 4> cells{cell(i, j), cell(i + 1, j), cell(i, j + 1),
+                                       cell(i + 1, j + 1)};
     return std::bit_cast<IntLanes>(cells);
+  }
+
+  [[nodiscard]] std::size_t slot_of(std::int32_t column, std::int32_t row) const {
+    return static_cast<std::size_t>((row << column_bits_) | column);
+  }
+  /// Of the tiles of four cells; outside of the rectangle the one that holds none.
+  [[nodiscard]] IntLanes slots_of(IntLanes x, IntLanes y) const {
+    const IntLanes column = x >> 6, row = y >> 6;
+    const IntLanes outside = (column < 0) | (row < 0) | (column >= columns_) | (row >= rows_);
+    return choose(outside, IntLanes{} + (rows_ << column_bits_), (row << column_bits_) | column);
   }
 
   void set_bounds(const GridGeometry& geometry, const Eigen::Vector2d& centre_map, double reach_m) {
@@ -149,15 +176,16 @@ class TsdView {
     first_ = {index(centre_map.x() - reach_m), index(centre_map.y() - reach_m)};
     columns_ = index(centre_map.x() + reach_m) - first_.x + 1;
     rows_ = index(centre_map.y() + reach_m) - first_.y + 1;
-    tiles_.clear();
-    tiles_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    column_bits_ = std::bit_width(static_cast<std::uint32_t>(columns_));
+    tiles_.assign((static_cast<std::size_t>(rows_) << column_bits_) + 1, nullptr);
   }
 
   GridGeometry geometry_;
   TileIndex first_{};
   std::int32_t columns_ = 0;
   std::int32_t rows_ = 0;
-  std::vector<const TsdTile*> tiles_;
+  int column_bits_ = 0;                         ///< rows of tiles are 2^column_bits_ apart
+  std::vector<const TsdTile*> tiles_{nullptr};  ///< row by row, and one that there is not
 };
 
 }  // namespace lifeline

@@ -29,21 +29,28 @@ Result<FreeSpace> FreeSpace::make(const FloorPlan& plan) {
   if (plan.walls.empty()) return fail(ErrorCode::bad_data, "{}: has no walls", plan.name);
   FreeSpace space(plan);
   constexpr std::array<double, 3> kKept{0.35, 0.30, 0.25};
-  const std::vector<std::size_t> most = space.largest_piece(kKept.back());
-  std::vector<std::size_t> piece;
-  for (const double kept : kKept) {
-    piece = space.largest_piece(kept);
-    space.kept_distance_m_ = kept;
+  const std::array<std::ptrdiff_t, kKept.size()> wide = [&] {
+    std::array<std::ptrdiff_t, kKept.size()> counts{};
+    const std::vector<std::uint32_t> most = space.largest_piece(kKept.back());
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      counts[k] = std::count_if(most.begin(), most.end(), [&](std::uint32_t i) {
+        return space.distance_m_[i] >= static_cast<float>(kKept[k] + kHalfCellM);
+      });
+    }
+    return counts;
+  }();
+  std::vector<std::uint32_t> piece;
+  for (std::size_t k = 0; k < kKept.size(); ++k) {
+    piece = {};  // not two of them at once
+    piece = space.largest_piece(kKept[k]);
+    space.kept_distance_m_ = kKept[k];
     // Is everything that is wide enough for this distance also reached with it?
-    const auto wide = std::count_if(most.begin(), most.end(), [&](std::size_t i) {
-      return space.distance_m_[i] >= static_cast<float>(kept + kHalfCellM);
-    });
-    if (static_cast<double>(piece.size()) >= 0.97 * static_cast<double>(wide)) break;
+    if (static_cast<double>(piece.size()) >= 0.97 * static_cast<double>(wide[k])) break;
   }
   if (static_cast<double>(piece.size()) * kCellM * kCellM < 1.0) {
     return fail(ErrorCode::bad_data, "{}: has no floor that is wide enough to walk on", plan.name);
   }
-  for (const std::size_t i : piece) space.flags_[i] |= kWalkable;
+  for (const std::uint32_t i : piece) space.flags_[i] |= kWalkable;
   return space;
 }
 
@@ -138,15 +145,15 @@ void FreeSpace::measure_distances(const FloorPlan& plan) {
   }
 }
 
-std::vector<std::size_t> FreeSpace::largest_piece(double kept_distance_m) const {
+std::vector<std::uint32_t> FreeSpace::largest_piece(double kept_distance_m) const {
   const auto least = static_cast<float>(kept_distance_m + kHalfCellM);
   std::vector<bool> seen(size());
-  std::vector<std::size_t> largest, piece;
+  std::vector<std::uint32_t> largest, piece;
   for (std::size_t seed = 0; seed < size(); ++seed) {
     piece.clear();
     const auto reach = [&](CellIndex next) {
       if (!is_floor(next)) return;
-      const std::size_t i = index(next);
+      const auto i = static_cast<std::uint32_t>(index(next));
       if (seen[i] || distance_m_[i] < least) return;
       seen[i] = true;
       piece.push_back(i);

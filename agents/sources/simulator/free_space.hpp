@@ -64,7 +64,7 @@ class FreeSpace {
   }
   void mark_floor(const FloorPlan& plan);
   void measure_distances(const FloorPlan& plan);
-  [[nodiscard]] std::vector<std::size_t> largest_piece(double kept_distance_m) const;
+  [[nodiscard]] std::vector<std::uint32_t> largest_piece(double kept_distance_m) const;
 
   Eigen::Vector2d lower_;
   int columns_ = 0;

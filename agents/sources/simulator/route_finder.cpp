@@ -22,11 +22,7 @@ std::uint8_t step_cost(double distance_m) {
 }  // namespace
 
 RouteFinder::RouteFinder(const FreeSpace& space)
-    : straight_cost_(space.size(), 0),
-      columns_(space.columns()),
-      cost_(space.size(), kNever),
-      from_(space.size(), 0),
-      buckets_(kBuckets) {
+    : straight_cost_(space.size(), 0), columns_(space.columns()), buckets_(kBuckets) {
   for (std::size_t i = 0; i < space.size(); ++i) {
     const CellIndex cell = space.cell(i);
     if (!space.is_walkable(cell)) continue;
@@ -39,7 +35,8 @@ RouteFinder::RouteFinder(const FreeSpace& space)
 
 void RouteFinder::spread(std::span<const std::size_t> starts,
                          const std::function<bool(std::size_t, double)>& visit) {
-  std::fill(cost_.begin(), cost_.end(), kNever);
+  cost_.assign(straight_cost_.size(), kNever);
+  from_.resize(straight_cost_.size());
   for (auto& bucket : buckets_) bucket.clear();
   waiting_ = starts.size();
   for (const std::size_t start : starts) {
@@ -58,6 +55,12 @@ void RouteFinder::spread(std::span<const std::size_t> starts,
       relax_neighbours(cell);
     }
   }
+}
+
+void RouteFinder::forget() {
+  cost_ = {};
+  from_ = {};
+  for (auto& bucket : buckets_) bucket = {};
 }
 
 void RouteFinder::relax_neighbours(std::size_t cell) {

@@ -21,6 +21,9 @@ class RouteFinder {
   void spread(std::span<const std::size_t> starts,
               const std::function<bool(std::size_t, double)>& visit);
 
+  /// Frees what the last spread() found: as much as the floor is large.
+  void forget();
+
   /// The way that the last spread() found to a cell it has visited: from a start to the cell.
   [[nodiscard]] std::vector<std::size_t> way_to(std::size_t cell) const;
   /// Which of the last spread()'s starts a cell it has visited was reached from.

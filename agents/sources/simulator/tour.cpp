@@ -35,7 +35,7 @@ Tour::Tour(const FreeSpace& space, const WalkerNumber& number)
     : space_(space),
       routes_(space),
       draw_(stir(stir(number.seed, 2), static_cast<std::uint64_t>(number.walker))),
-      place_at_(space.size(), -1) {
+      is_place_(space.size(), false) {
   LIFELINE_CHECK(number.walker >= 0 && number.walker < WalkerNumber::kMost);
   LIFELINE_CHECK(number.walkers >= 1 && number.walkers <= WalkerNumber::kMost);
   choose_starts(number);
@@ -48,9 +48,9 @@ Tour::Tour(const FreeSpace& space, const WalkerNumber& number)
 /// so that all walkers agree.
 void Tour::choose_starts(const WalkerNumber& number) {
   Draw draw(stir(number.seed, 3));
-  std::vector<std::size_t> walkable;
+  std::vector<std::uint32_t> walkable;
   for (std::size_t i = 0; i < space_.size(); ++i) {
-    if (space_.is_walkable(space_.cell(i))) walkable.push_back(i);
+    if (space_.is_walkable(space_.cell(i))) walkable.push_back(static_cast<std::uint32_t>(i));
   }
   const std::size_t anywhere =
       walkable[static_cast<std::size_t>(draw.below(static_cast<int>(walkable.size())))];
@@ -69,11 +69,11 @@ void Tour::choose_starts(const WalkerNumber& number) {
 }
 
 void Tour::choose_places(Draw& draw) {
-  std::vector<std::size_t> roomy, narrow;
+  std::vector<std::uint32_t> roomy, narrow;
   for (std::size_t i = 0; i < space_.size(); ++i) {
     const CellIndex cell = space_.cell(i);
     if (!space_.is_walkable(cell)) continue;
-    (space_.distance_m(cell) >= kRoomyM ? roomy : narrow).push_back(i);
+    (space_.distance_m(cell) >= kRoomyM ? roomy : narrow).push_back(static_cast<std::uint32_t>(i));
   }
   std::vector<bool> seen(space_.size());
   for (auto* cells : {&roomy, &narrow}) {
@@ -83,7 +83,8 @@ void Tour::choose_places(Draw& draw) {
     }
     for (const std::size_t place : *cells) {
       if (seen[place]) continue;
-      place_at_[place] = static_cast<std::int32_t>(places_.size());
+      is_place_[place] = true;
+      place_at_[place] = places_.size();
       places_.push_back({place, true, false, 1.0});
       const CellIndex from = space_.cell(place);
       around(space_, from, kSightM, [&](CellIndex cell) {
@@ -132,11 +133,13 @@ std::vector<std::vector<std::size_t>> Tour::next_round() {
   std::vector<std::vector<std::size_t>> ways;
   for (mark_seen_from(here_);;) {
     std::vector<std::size_t> way = way_to_next_place();
-    if (way.empty()) return ways;
+    if (way.empty()) break;
     for (const std::size_t cell : way) mark_seen_from(cell);
     here_ = way.back();
     ways.push_back(std::move(way));
   }
+  routes_.forget();  // until the next round
+  return ways;
 }
 
 std::vector<std::size_t> Tour::way_to_next_place() {
@@ -144,11 +147,10 @@ std::vector<std::size_t> Tour::way_to_next_place() {
   const Place* next = nullptr;
   routes_.spread(std::span(&here_, 1), [&](std::size_t cell, double cost) {
     if (cost >= best) return false;
-    if (place_at_[cell] < 0) return true;
-    const Place& place = places_[static_cast<std::size_t>(place_at_[cell])];
-    if (place.pending && cost * place.detour < best) {
-      best = cost * place.detour;
-      next = &place;
+    const Place* place = place_at(cell);
+    if (place != nullptr && place->pending && cost * place->detour < best) {
+      best = cost * place->detour;
+      next = place;
     }
     return true;
   });
@@ -158,11 +160,13 @@ std::vector<std::size_t> Tour::way_to_next_place() {
 void Tour::mark_seen_from(std::size_t cell) {
   const CellIndex from = space_.cell(cell);
   around(space_, from, kPassedByM, [&](CellIndex near) {
-    const std::int32_t place = place_at_[space_.index(near)];
-    if (place >= 0 && space_.can_see(from, near)) {
-      places_[static_cast<std::size_t>(place)].pending = false;
-    }
+    Place* place = place_at(space_.index(near));
+    if (place != nullptr && space_.can_see(from, near)) place->pending = false;
   });
+}
+
+Tour::Place* Tour::place_at(std::size_t cell) {
+  return is_place_[cell] ? &places_[place_at_.at(cell)] : nullptr;
 }
 
 }  // namespace lifeline::sources

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "agents/sources/simulator/draw.hpp"
@@ -50,13 +51,16 @@ class Tour {
   [[nodiscard]] std::vector<bool> near_ways_between_starts();
   [[nodiscard]] std::vector<std::size_t> way_to_next_place();
   void mark_seen_from(std::size_t cell);
+  /// The place at a cell; nullptr where there is none.
+  [[nodiscard]] Place* place_at(std::size_t cell);
 
   const FreeSpace& space_;
   RouteFinder routes_;
   Draw draw_;
   std::vector<std::size_t> starts_;
   std::vector<Place> places_;
-  std::vector<std::int32_t> place_at_;  // by cell; -1 where there is none
+  std::vector<bool> is_place_;  // by cell
+  std::unordered_map<std::size_t, std::size_t> place_at_;
   std::size_t here_ = 0;
   int round_ = 0;
 };

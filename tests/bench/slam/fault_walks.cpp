@@ -77,7 +77,7 @@ FaultFigures play(const Fault& fault, const std::vector<RawScan>& walk) {
   FaultyHelmet helmet;
   Pose2 T_map_world = walk.front().T_world_head_truth->inverse();
   const std::size_t first = walk.size() / 2;
-  const std::size_t end = first + static_cast<std::size_t>(fault.scans);
+  const std::size_t end = std::min(first + static_cast<std::size_t>(fault.scans), walk.size() - 1);
   slam::LastPlace last;
   for (std::size_t k = 0; k < walk.size(); ++k) {
     RawScan raw = walk[k];
@@ -119,6 +119,17 @@ void thin_to(RawScan& raw, std::size_t every) {
   }
 }
 
+/// As in the mirror image of the building, which the map does not know.
+void mirror(RawScan& raw) {
+  std::reverse(raw.ranges_m.begin(), raw.ranges_m.end());
+  const auto turn_over = [](sensing::Attitude& attitude) {
+    attitude.roll_rad = -attitude.roll_rad;
+    attitude.yaw_rad = -attitude.yaw_rad;
+  };
+  if (raw.attitude) turn_over(*raw.attitude);
+  for (sensing::TimedAttitude& later : raw.later_attitudes) turn_over(later.attitude);
+}
+
 Fault filled(const char* name, float with) {
   return {.name = name,
           .scans = 10,
@@ -149,6 +160,14 @@ std::vector<Fault> all_faults() {
   std::vector<Fault> faults;
   faults.push_back({.name = "covered for 10 s", .scans = 100, .spoil = cover});
   faults.push_back({.name = "carried for 10 s, heading unknown", .scans = 100, .spoil = carry});
+  const auto carry_away = [carry](RawScan& raw, int i) {
+    constexpr int kCarried = 100;
+    if (i < kCarried) return carry(raw, i);
+    mirror(raw);
+  };
+  faults.push_back({.name = "carried out of its map, heading unknown",
+                    .scans = std::numeric_limits<int>::max(),
+                    .spoil = carry_away});
   faults.push_back({.name = "restarted in its map", .scans = 0, .spoil = cover, .restarts = true});
   for (const int away_s : {1, 3, 6}) {
     faults.push_back({.name = fmt::format("walked on while it restarted for {} s", away_s),

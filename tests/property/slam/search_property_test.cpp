@@ -1,44 +1,23 @@
 // The searches' fast sums and looks against slow ones.
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "agents/slam/correlative_search.hpp"
-#include "agents/slam/fit_field.hpp"
-#include "common/grid/tsd_update.hpp"
+#include "agents/slam/direct_matcher.hpp"
 #include "common/grid/tsd_view.hpp"
-#include "tests/support/fine_grid.hpp"
-#include "tests/support/flat_world.hpp"
+#include "tests/property/slam/mapped_flat.hpp"
 
 namespace lifeline::slam {
 namespace {
 
-using support::scan_of;
-using support::small_flat;
-
-class SearchProperty : public ::testing::TestWithParam<unsigned> {
- protected:
-  SearchProperty() : random(GetParam()) {
-    TsdUpdater updater(kGeometry, {});
-    for (int i = 0; i < 6; ++i) {
-      const Pose2 T = random_pose();
-      (void)updater.push(extract_surface(scan_of(small_flat(), T)), T, 1.0, map.own());
-    }
-  }
-  Pose2 random_pose() {
-    std::uniform_real_distribution<double> near(-1.2, 1.2), turn(-M_PI, M_PI);
-    return {near(random), near(random), turn(random)};
-  }
-  /// A scan of few points, so that none is left out.
-  std::vector<SurfacePiece> pieces_at(const Pose2& T) {
-    const support::Lidar lidar{.beams = 90, .step_rad = M_PI / 45.0, .noise_m = 0.01};
-    return extract_surface(scan_of(small_flat(), T, lidar, &random));
-  }
-
-  std::mt19937 random;
-  WorkingMap map{kGeometry};
-};
+class SearchProperty : public MappedFlat {};
 
 TEST_P(SearchProperty, FourSamplesAreFourTimesOneToTheBit) {
   TsdView view;
@@ -69,35 +48,74 @@ TEST_P(SearchProperty, FourSamplesAreFourTimesOneToTheBit) {
   EXPECT_GT(known, 500U);
 }
 
-TEST_P(SearchProperty, ABlocksBoundIsTheSumOfItsPointsAndNoPlaceScoresMore) {
-  FitField field;
-  field.assign(map, {});
-  std::uniform_int_distribution<int> off(-60, 60);
-  std::vector<FitField::Place> offsets(40);
-  for (auto& offset : offsets) offset = {off(random), off(random)};
-  const auto score = [&](int level, FitField::Place from) {
-    int sum = 0;
-    for (const auto& offset : offsets) {
-      const FitField::Place at{from.column + offset.column, from.row + offset.row};
-      if (field.contains(at)) sum += field.fit(level, at);
+TEST_P(SearchProperty, FourCellsAreTheOnesThatAreThere) {
+  TsdView view;
+  view.assign(map, {0.3, -0.2}, 3.0);
+  std::uniform_int_distribution<std::int32_t> at(-100, 300);
+  std::size_t known = 0;
+  for (int i = 0; i < 5000; ++i) {
+    IntLanes x{}, y{};
+    for (int k = 0; k < kLanes; ++k) {
+      x[k] = at(random);
+      y[k] = at(random);
     }
-    return sum;
-  };
-  std::vector<std::int16_t> bounds;
-  field.bound_blocks(offsets, bounds);
-  std::size_t compared = 0;
-  for (std::size_t block = 0; block < bounds.size(); ++block) {
-    if (!field.has_free_place(block)) continue;
-    ++compared;
-    const FitField::Place corner = field.corner_of(block);
-    EXPECT_EQ(bounds[block], score(FitField::kLevels - 1, corner));
-    for (int y = 0; y < FitField::kBlock; ++y) {
-      for (int x = 0; x < FitField::kBlock; ++x) {
-        EXPECT_GE(bounds[block], score(0, {corner.column + x, corner.row + y}));
-      }
+    const IntLanes four = view.four_cells(x, y);
+    for (int k = 0; k < kLanes; ++k) {
+      const TsdCell one = view.cell(x[k], y[k]);
+      ASSERT_EQ(four[k], std::bit_cast<std::int32_t>(one));
+      known += one.known() ? 1 : 0;
     }
   }
-  EXPECT_GT(compared, 20U);
+  EXPECT_GT(known, 500U);
+}
+
+/// Share of the points, by weight, that a surface stands before.
+double slow_share_through_walls(const TsdView& view, std::span<const SurfacePiece> pieces,
+                                const Pose2& T_map_head) {
+  const double cell_m = view.geometry().cell_size_m;
+  double sum = 0.0, weight = 0.0;
+  for (const SurfacePiece& piece : pieces) {
+    const double of_point = std::sqrt(std::clamp(piece.left_m + piece.right_m, 0.02F, 0.5F) / 0.2F);
+    const double length_m = static_cast<double>(piece.point.norm());
+    bool passes = false;
+    for (double at_m = 2.0 * cell_m; at_m < length_m - 8.0 * cell_m; at_m += 2.0 * cell_m) {
+      const Eigen::Vector2d p =
+          T_map_head * (piece.point.cast<double>() * (at_m / length_m)).eval();
+      const Pose2 at = view.to_view({p.x(), p.y(), 0.0});
+      const TsdCell cell = view.cell(static_cast<std::int32_t>(std::floor(at.x_m)),
+                                     static_cast<std::int32_t>(std::floor(at.y_m)));
+      passes = passes || (cell.known() && cell.value() < -0.3F);
+    }
+    sum += passes ? of_point : 0.0;
+    weight += of_point;
+  }
+  return sum / weight;
+}
+
+TEST_P(SearchProperty, BeamsThatPassThroughWallsAreCountedAsFarAsItMatters) {
+  TsdView view;
+  view.assign(map, {0.0, 0.0}, 12.0);
+  std::uniform_real_distribution<double> share(0.0, 0.3);
+  DirectMatcher direct({});
+  int cut_short = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto pieces = pieces_at(random_pose());
+    const Pose2 elsewhere = random_pose();
+    direct.set_scan(pieces);
+    const double all = direct.seen_through_walls(view, elsewhere);
+    // A cell's edge may be on either side of a float.
+    EXPECT_NEAR(all, slow_share_through_walls(view, pieces, elsewhere), 0.03);
+    const double enough = share(random);
+    const double some = direct.seen_through_walls(view, elsewhere, enough);
+    if (all <= enough) {
+      EXPECT_EQ(some, all);
+    } else {
+      EXPECT_GT(some, enough - 1e-6);
+      EXPECT_LE(some, all);
+      cut_short += some < all ? 1 : 0;
+    }
+  }
+  EXPECT_GT(cut_short, 5);
 }
 
 /// How well a point fits: the best of the known cells of its square of 2 x 2.

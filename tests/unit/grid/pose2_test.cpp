@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/grid/point_transform.hpp"
+
 namespace lifeline {
 namespace {
 
@@ -48,6 +50,16 @@ TEST(Pose2, KnowsWhetherItIsFinite) {
   EXPECT_TRUE(Pose2{}.is_finite());
   EXPECT_FALSE((Pose2{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}.is_finite()));
   EXPECT_FALSE((Pose2{0.0, 0.0, std::numeric_limits<double>::infinity()}.is_finite()));
+}
+
+TEST(PointTransform, TakesPointsAlongAsThePoseDoesToTheBit) {
+  for (const Pose2& T : {Pose2{}, Pose2{1.5, -2.25, 0.3}, Pose2{-40.0, 0.125, -3.1}}) {
+    const PointTransform transform(T);
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(3.7, -0.2)}) {
+      EXPECT_EQ(transform * p, T * p);
+      EXPECT_EQ(transform.turned(p), (Pose2{0.0, 0.0, T.yaw_rad} * p));
+    }
+  }
 }
 
 }  // namespace

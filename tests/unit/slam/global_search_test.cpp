@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/whole_search.hpp"
 #include "tests/unit/slam/walked_wing.hpp"
 
 namespace lifeline::slam {
 namespace {
+
+using support::search_all;
+using support::take_map;
 
 class GlobalSearchInTheWing : public ::testing::Test {
  protected:
@@ -30,9 +34,9 @@ class GlobalSearchInTheWing : public ::testing::Test {
 };
 
 TEST_F(GlobalSearchInTheWing, FindsEveryPlaceAtAnyHeading) {
-  search.set_map(map);
+  take_map(search, map);
   for (int k = 0; k < way.scans(); k += 23) {
-    const auto found = search.search(seen_from(k), 0.0, M_PI);
+    const auto found = search_all(search, seen_from(k), 0.0, M_PI);
     ASSERT_FALSE(found.candidates.empty()) << k;
     const Pose2 off = truth(k).inverse() * found.candidates.front().T_map_head;
     EXPECT_LT(off.translation().norm(), 0.2) << k;
@@ -42,33 +46,35 @@ TEST_F(GlobalSearchInTheWing, FindsEveryPlaceAtAnyHeading) {
 }
 
 TEST_F(GlobalSearchInTheWing, LooksNowhereOutsideTheHeadingsGiven) {
-  search.set_map(map);
+  take_map(search, map);
   const double yaw_rad = truth(50).yaw_rad;
-  for (const GlobalCandidate& there : search.search(seen_from(50), yaw_rad + 2.0, 0.3).candidates) {
+  for (const GlobalCandidate& there :
+       search_all(search, seen_from(50), yaw_rad + 2.0, 0.3).candidates) {
     EXPECT_LT(std::abs(normalise_angle(there.T_map_head.yaw_rad - yaw_rad - 2.0)), 0.4);
   }
 }
 
 TEST_F(GlobalSearchInTheWing, GivesPlacesApartBestFirst) {
-  search.set_map(map);
-  const auto found = search.search(seen_from(100), 0.0, M_PI).candidates;
+  take_map(search, map);
+  const auto found = search_all(search, seen_from(100), 0.0, M_PI).candidates;
   for (std::size_t i = 1; i < found.size(); ++i) {
     EXPECT_LE(found[i].agreement, found[i - 1].agreement);
   }
 }
 
 TEST_F(GlobalSearchInTheWing, NothingToCompareFindsNothing) {
-  EXPECT_TRUE(search.search(seen_from(0), 0.0, M_PI).candidates.empty());
-  search.set_map(map);
-  EXPECT_TRUE(search.search({}, 0.0, M_PI).candidates.empty());
-  search.set_map(WorkingMap(kGeometry));
-  EXPECT_TRUE(search.search(seen_from(0), 0.0, M_PI).candidates.empty());
+  EXPECT_TRUE(search_all(search, seen_from(0), 0.0, M_PI).candidates.empty());
+  take_map(search, map);
+  EXPECT_TRUE(search_all(search, {}, 0.0, M_PI).candidates.empty());
+  const WorkingMap empty(kGeometry);
+  take_map(search, empty);
+  EXPECT_TRUE(search_all(search, seen_from(0), 0.0, M_PI).candidates.empty());
 }
 
 TEST_F(GlobalSearchInTheWing, AMapTooLargeForTheFieldIsSearchedMoreCoarsely) {
   GlobalSearch coarse({.field = {.max_cells = 10'000}});
-  coarse.set_map(map);
-  const auto found = coarse.search(seen_from(60), 0.0, M_PI);
+  take_map(coarse, map);
+  const auto found = search_all(coarse, seen_from(60), 0.0, M_PI);
   ASSERT_FALSE(found.candidates.empty());
   EXPECT_LT((found.candidates.front().T_map_head.translation() - truth(60).translation()).norm(),
             0.5);
@@ -76,8 +82,8 @@ TEST_F(GlobalSearchInTheWing, AMapTooLargeForTheFieldIsSearchedMoreCoarsely) {
 
 TEST_F(GlobalSearchInTheWing, SaysWhenItCouldNotLookEverywhere) {
   GlobalSearch hasty({.max_nodes = 4});
-  hasty.set_map(map);
-  EXPECT_FALSE(hasty.search(seen_from(60), 0.0, M_PI).complete);
+  take_map(hasty, map);
+  EXPECT_FALSE(search_all(hasty, seen_from(60), 0.0, M_PI).complete);
 }
 
 }  // namespace

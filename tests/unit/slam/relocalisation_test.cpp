@@ -108,6 +108,22 @@ TEST(Relocalisation, ARestartedHelmetFindsItselfInTheOldMap) {
   }
 }
 
+TEST(Relocalisation, ASearchThatTakesManyScansFindsThePlaceWhereTheHeadIsByThen) {
+  Walk first(wing(), through_the_wing());
+  const TsdGrid map = map_of(first);
+  for (const int start : {0, 130, 200}) {
+    Walk again(wing(), through_the_wing());
+    SlamConfig config;
+    config.relocalise.work_per_scan = 200'000;
+    again.slam = TsdSlam(config, kGeometry);
+    again.slam.resume(copy_of(map));
+    const auto found = walk_until_found(again, start, start + 160);
+    ASSERT_TRUE(found) << start;
+    EXPECT_TRUE(same_cells(again.slam.layer(), map)) << start;
+    EXPECT_LT(again.off_m(again.step(*found + 1), *found + 1), 0.06) << start;
+  }
+}
+
 TEST(Relocalisation, ALidarThatLooksAheadOnlyIsEnough) {
   Walk first(wing(), through_the_wing());
   const TsdGrid map = map_of(first);

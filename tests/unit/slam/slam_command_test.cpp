@@ -1,8 +1,11 @@
 #include "agents/slam_command.hpp"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "agents/loaded_pages.hpp"
 #include "common/files/map_file.hpp"
 #include "common/files/occupancy_image.hpp"
 #include "common/files/tum.hpp"
@@ -137,6 +140,20 @@ TEST(SlamCommand, LeavesNothingBehindWhenTheSourceBreaksOff) {
   const auto [status, said] = failing(options_for(folder, carmen(folder.write("cut.log", log))));
   EXPECT_EQ(status, 1) << said;
   EXPECT_EQ(folder.files(), 1U);  // the log itself
+}
+
+/// Pages of files that are mapped and in memory.
+long file_pages() {
+  long size = 0, resident = 0, shared = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident >> shared;
+  return shared;
+}
+
+TEST(LoadedPages, AreFewerOnceGivenBackAndComeAgainWhereTheyAreNeeded) {
+  const long before = file_pages();
+  give_back_loaded_pages();
+  EXPECT_LT(file_pages(), before);
+  EXPECT_EQ(std::to_string(0.5), "0.500000");
 }
 
 }  // namespace
