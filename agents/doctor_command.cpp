@@ -42,11 +42,14 @@ Result<doctor::Setup> describe_setup(const AgentDoctorOptions& options) {
     if (!config) return forward_error(config);
   }
   if (options.state) config->mutable_storage()->set_folder(options.state->string());
+  if (options.record) config->mutable_recording()->set_folder(options.record->string());
   setup.domain = options.domain.value_or(config->mission().domain_id());
   setup.qos_file = dds::qos_file(options.qos, options.config, config->mission().qos_profiles());
   setup.counted_interface = config->sharing().interface();
   setup.folders = {
-      {"state", config->storage().folder(), "storage.folder or --state", doctor::kStateNeed}};
+      {"state", config->storage().folder(), "storage.folder or --state", doctor::kStateNeed},
+      {"recording", config->recording().folder(), "recording.folder or --record",
+       doctor::kRecordingNeed}};
   setup.wants_sensors = options.source.empty();
   if (auto lidar = add_device(setup, options.source, "rplidar", kLidarBaud); !lidar)
     return forward_error(lidar);

@@ -15,6 +15,7 @@ struct AgentDoctorOptions {
   std::optional<std::uint32_t> domain;
   std::optional<std::filesystem::path> qos;
   std::optional<std::filesystem::path> state;
+  std::optional<std::filesystem::path> record;
   bool json = false;
 };
 

@@ -63,6 +63,10 @@ void add_run_command(CLI::App& app, AgentRunOptions& options, int& status) {
                   "Folder that keeps this helmet's state, so that it goes on after a restart; "
                   "overrides the configuration")
       ->type_name(cli::kFolder);
+  run->add_option("--record", options.record,
+                  "Folder that takes a new recording (rosbag2) of what this helmet hears and says; "
+                  "overrides the configuration")
+      ->type_name(cli::kFolder);
   run->add_option("--journal", options.journal,
                   "File that takes a line for each tile published and each that came into the "
                   "common map, with its time")
@@ -117,6 +121,9 @@ void add_doctor_command(CLI::App& app, AgentDoctorOptions& options, int& status)
                    "without it, adapters that are plugged in are listed")
       ->type_name("SOURCE");
   add_attitude_option(*doctor, options.attitude);
+  doctor
+      ->add_option("--record", options.record, "Folder of recordings; overrides the configuration")
+      ->type_name(cli::kFolder);
   cli::add_doctor_options(*doctor, options);
   doctor->callback([&options, &status] { status = run_agent_doctor_command(options); });
 }

@@ -14,11 +14,10 @@
 #include "agents/channel_settings.hpp"
 #include "agents/helmet_report.hpp"
 #include "agents/helmet_threads.hpp"
-#include "agents/hud/hud_feed.hpp"
 #include "agents/map_journal.hpp"
+#include "agents/run_settings.hpp"
 #include "agents/sharing/mission_join.hpp"
 #include "agents/sources/open_source.hpp"
-#include "agents/storage/helmet_storage.hpp"
 #include "common/base/config_folder.hpp"
 #include "common/base/log.hpp"
 #include "common/base/stop_signal.hpp"
@@ -33,32 +32,6 @@ constexpr Duration kLoopWait = std::chrono::milliseconds(20);
 constexpr Duration kJoinListen = std::chrono::milliseconds(1500);
 // Long enough for the holder of a contested id to hear of it.
 constexpr Duration kLingerAfterRefusal = std::chrono::milliseconds(500);
-
-Result<proto::AgentConfig> read_config(const AgentRunOptions& options) {
-  auto config = read_agent_config(options.config, options.matcher);
-  if (!config) return config;
-  if (options.mission) config->mutable_mission()->set_mission_id(*options.mission);
-  if (options.domain) config->mutable_mission()->set_domain_id(*options.domain);
-  if (options.state) config->mutable_storage()->set_folder(options.state->string());
-  if (options.budget_bit_s) config->mutable_sharing()->set_budget_bit_s(*options.budget_bit_s);
-  return config;
-}
-
-// Nothing where nothing is to be kept, or the disk refuses.
-Result<std::unique_ptr<HelmetStorage>> open_storage(const proto::AgentConfig& config,
-                                                    const sharing::Speaker& speaker, Floor floor,
-                                                    const Clock& clock) {
-  if (config.storage().folder() == "off") {
-    spdlog::info("keeps nothing on disk: a restart begins a new map (storage.folder or --state)");
-    return nullptr;
-  }
-  store::ResumeLimits limits;
-  limits.oldest = from_seconds(3600.0 * config.storage().resume_within_h());
-  return HelmetStorage::open(config.storage().folder(),
-                             {"helmet", speaker.id.text(), speaker.mission_id,
-                              to_settings(config).geometry, speaker.incarnation.value},
-                             floor, limits, clock);
-}
 
 // A number that no map of this helmet has had.
 MapId choose_map(MapId unused, HelmetStorage* storage) {
@@ -87,25 +60,32 @@ Result<Welcome> join(const sharing::Speaker& speaker, Floor floor,
   return fail(ErrorCode::unavailable, "stopped before the mission was joined");
 }
 
+/// What is told of each step.
+struct Listeners {
+  HelmetStorage* storage;  ///< nullptr: nothing is kept
+  hud::HudFeed& hud;
+  HelmetRecording* recording;  ///< nullptr: nothing is recorded
+};
+
 // Exchanges what both halves have for each other until a signal comes.
 void share(HelmetThreads& threads, Mailbox& mailbox, sharing::HelmetSharing& helmet,
-           bool match_working_map, HelmetStorage* storage, hud::HudFeed& hud,
-           dds::Participant& participant) {
+           bool match_working_map, const Listeners& listeners, dds::Participant& participant) {
   bool told = false;
   while (!stop_requested() && !threads.source_error()) {
     participant.wait_for_data(kLoopWait);
     if (auto mapped = mailbox.take_mapped()) {
       helmet.put(mapped->tiles, mapped->scanned_at);
-      hud.pass(mapped->tiles);
+      listeners.hud.pass(mapped->tiles);
       helmet.put(std::move(mapped->state));
     }
     helmet.step();
-    if (storage != nullptr) storage->step(helmet);
+    if (listeners.storage != nullptr) listeners.storage->step(helmet);
+    if (listeners.recording != nullptr) listeners.recording->step(helmet);
     if (auto peers = helmet.take_peer_update()) {
-      hud.pass(*peers);
+      listeners.hud.pass(*peers);
       if (match_working_map) mailbox.put_peers(*peers);
     }
-    hud.step(helmet, std::chrono::steady_clock::now());
+    listeners.hud.step(helmet, std::chrono::steady_clock::now());
     if (threads.finished() && !std::exchange(told, true)) {
       spdlog::info("the source gave its last scan; still sharing, stop with Ctrl-C");
     }
@@ -145,11 +125,17 @@ struct StopAtEnd {
 // Shares until a signal or the source's error.
 Result<void> share_map(const AgentRunOptions& options, const AgentSettings& settings,
                        const sharing::HelmetSharingConfig& config, sharing::HelmetChannels channels,
-                       Mapping& mapping, HelmetStorage* storage, hud::HudFeed& hud,
-                       std::stop_source& stop_source, dds::Participant& participant,
-                       const Clock& clock) {
+                       Mapping& mapping, Beside& beside, std::stop_source& stop_source,
+                       dds::Participant& participant, const Clock& clock) {
+  HelmetStorage* const storage = beside.storage.get();
   if (storage != nullptr) storage->attach(channels);
+  std::optional<HelmetRecording> recording;
+  if (beside.recording) {
+    recording.emplace(*beside.recording, config, clock);
+    recording->attach(channels);
+  }
   sharing::HelmetSharing helmet(config, std::move(channels), clock);
+  beside.hud.attach(helmet);
   if (storage != nullptr) {
     if (auto resumed = storage->attach(helmet); !resumed) return resumed;
   }
@@ -160,10 +146,11 @@ Result<void> share_map(const AgentRunOptions& options, const AgentSettings& sett
     journal = *std::move(opened);
     journal->attach(helmet);
   }
-  share(*mapping.threads, mapping.mailbox, helmet, settings.match_working_map, storage, hud,
-        participant);
+  share(*mapping.threads, mapping.mailbox, helmet, settings.match_working_map,
+        {storage, beside.hud, recording ? &*recording : nullptr}, participant);
   stop_source.request_stop();
   mapping.threads->stop();
+  const Result<void> recorded = recording ? recording->finish(helmet) : Result<void>{};
   if (options.report) {
     if (auto written = write_helmet_report(*options.report, config.layer, mapping.mapper,
                                            mapping.threads->scans_dropped(), helmet);
@@ -171,27 +158,13 @@ Result<void> share_map(const AgentRunOptions& options, const AgentSettings& sett
       return written;
   }
   if (auto error = mapping.threads->source_error()) return tl::unexpected<Error>(*error);
-  return {};
-}
-
-// Beginning where the wearer came in, also before a restart.
-Result<hud::HudFeed> start_hud(const hud::HudOptions& options, double cell_size_m,
-                               HelmetStorage* storage) {
-  if (!options.wanted()) return hud::HudFeed(nullptr);
-  hud::Path earlier;
-  if (storage != nullptr && storage->memory().mapper) {
-    for (const auto& stamped : storage->memory().mapper->trajectory)
-      earlier.push_back(stamped.pose.translation());
-  }
-  auto hud = hud::Hud::start(options, cell_size_m, earlier);
-  if (!hud) return forward_error(hud);
-  return hud::HudFeed(*std::move(hud));
+  return recorded;
 }
 
 Result<void> run(const AgentRunOptions& options) {
   auto id = AgentId::parse(options.id);
   if (!id) return forward_error(id);
-  auto config = read_config(options);
+  auto config = read_run_config(options);
   if (!config) return forward_error(config);
   set_up_log(options.id, config->mission().log_level());
   if (options.report) {
@@ -207,16 +180,15 @@ Result<void> run(const AgentRunOptions& options) {
   if (!source) return forward_error(source);
   auto qos = dds::qos_file(options.qos, options.config, config->mission().qos_profiles());
   if (!qos) return forward_error(qos);
-  auto storage = open_storage(*config, speaker, layer.floor, clock);
-  if (!storage) return forward_error(storage);
-  auto hud = start_hud(options.hud, settings.geometry.cell_size_m, storage->get());
-  if (!hud) return forward_error(hud);
+  auto beside = open_beside(options, *config, speaker, layer.floor, clock);
+  if (!beside) return forward_error(beside);
+  HelmetStorage* const storage = beside->storage.get();
   Mapping mapping(settings);
   const StopAtEnd stop{stop_source};
   const Overflow overflow = overflow_of(options.source);
-  if (*storage && (*storage)->memory().map) {
-    layer.map_id = *(*storage)->memory().map;
-    mapping.begin(*std::move(source), overflow, layer, storage->get());
+  if (storage != nullptr && storage->memory().map) {
+    layer.map_id = *storage->memory().map;
+    mapping.begin(*std::move(source), overflow, layer, storage);
   }
   auto participant = dds::Participant::create({config->mission().domain_id(), *qos, options.id});
   if (!participant) return forward_error(participant);
@@ -225,15 +197,14 @@ Result<void> run(const AgentRunOptions& options) {
   const auto welcome = join(speaker, layer.floor, *channels, **participant, clock);
   if (!welcome) return forward_error(welcome);
   if (!mapping.threads) {
-    layer.map_id = choose_map(welcome->unused_map, storage->get());
-    mapping.begin(*std::move(source), overflow, layer, storage->get());
+    layer.map_id = choose_map(welcome->unused_map, storage);
+    mapping.begin(*std::move(source), overflow, layer, storage);
   }
   spdlog::info("joined mission {} with map {}", speaker.mission_id, layer.map_id.value);
   return share_map(options, settings,
                    {speaker, layer, settings.geometry, settings.publisher, settings.budget_bit_s,
                     welcome->statuses_said},
-                   *std::move(channels), mapping, storage->get(), *hud, stop_source, **participant,
-                   clock);
+                   *std::move(channels), mapping, *beside, stop_source, **participant, clock);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct AgentRunOptions {
   std::optional<std::string> matcher;
   std::optional<std::filesystem::path> journal;  ///< file for what was published and fused when
   std::optional<std::filesystem::path> state;    ///< folder of the state file
+  std::optional<std::filesystem::path> record;   ///< folder of recordings
   hud::HudOptions hud;
 };
 

@@ -7,6 +7,7 @@
 #include "common/base/log.hpp"
 #include "common/grid/occupancy_grid.hpp"
 #include "common/sharing/accept.hpp"
+#include "common/sharing/groups.hpp"
 #include "common/sharing/hear.hpp"
 #include "common/wire/limits.hpp"
 #include "coordinator/evidence.hpp"
@@ -23,17 +24,6 @@ constexpr Duration kQuietAfter = std::chrono::seconds(3);
 constexpr Duration kGoneAfter = std::chrono::seconds(30);
 constexpr double kPathStepM = 0.05;
 constexpr std::size_t kMaxPathPoints = 100'000;
-
-// The members of the largest group: group 0, since plans list the largest first.
-std::vector<sharing::Placement> largest_group(const wire::MergeDirective& directive) {
-  std::vector<sharing::Placement> group;
-  for (const auto& member : directive.members) {
-    if (member.group != 0) continue;
-    if (auto key = sharing::to_layer_key(member.layer))
-      group.push_back({*std::move(key), member.T_common_map});
-  }
-  return group;
-}
 
 }  // namespace
 
@@ -233,7 +223,10 @@ void Coordinator::send_directive(SteadyTime now) {
 }
 
 void Coordinator::place_common_map() {
-  common_map_.place(largest_group(writer_.directive()), store_);
+  const wire::MergeDirective& directive = writer_.directive();
+  common_map_.place(settings_.seen_by ? sharing::group_of(directive, *settings_.seen_by)
+                                      : sharing::largest_group(directive),
+                    store_);
   detections_.follow(writer_.directive());
 }
 
@@ -252,7 +245,7 @@ wire::AgentStatus Coordinator::status() const {
                            alerts_.refused();
   status.bytes_sent = channels_.bytes_sent ? channels_.bytes_sent() : 0;
   if (channels_.recording) {
-    const RecordingStatus recording = channels_.recording();
+    const sharing::RecordingStatus recording = channels_.recording();
     status.recording = recording.state;
     status.samples_unrecorded = recording.unrecorded;
   }

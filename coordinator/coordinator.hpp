@@ -16,6 +16,7 @@
 #include "common/sharing/kept_layers.hpp"
 #include "common/sharing/one_way_watch.hpp"
 #include "common/sharing/pose_watch.hpp"
+#include "common/sharing/recording_status.hpp"
 #include "common/sharing/roster.hpp"
 #include "common/sharing/tile_exchange.hpp"
 #include "common/wire/channel.hpp"
@@ -26,12 +27,6 @@
 #include "coordinator/merging/merge_keeper.hpp"
 
 namespace lifeline {
-
-/// How a recording stands.
-struct RecordingStatus {
-  wire::RecordingState state = wire::RecordingState::off;
-  std::uint64_t unrecorded = 0;  ///< what it lacks, in messages
-};
 
 /// The coordinator's ends of the topics.
 struct CoordinatorChannels {
@@ -53,7 +48,7 @@ struct CoordinatorChannels {
   /// Opens `directive`, once this coordinator leads, if it is not open from the start.
   std::function<Result<std::unique_ptr<wire::Outbox<wire::MergeDirective>>>()> open_directive{};
   /// Asked for the status, where there is a recording.
-  std::function<RecordingStatus()> recording{};
+  std::function<sharing::RecordingStatus()> recording{};
   /// Alerts of all, and by what the commander speaks. Without them nobody is alarmed.
   std::unique_ptr<wire::Inbox<wire::Alert>> alerts{};
   std::unique_ptr<wire::Outbox<wire::Alert>> alert{};
@@ -77,6 +72,9 @@ struct CoordinatorSettings {
   double budget_bit_s = 1'000'000;  ///< of everything that it sends, to all receivers together
   LeadershipConfig leadership{};
   bool only_listens = false;  ///< what it sends reaches nobody, as in a replay
+  /// The common map is that of this layer's group, as in a replay of what a helmet recorded; the
+  /// largest group's without.
+  std::optional<LayerKey> seen_by{};
 };
 
 /// A pair's newest match, and when it was made.
@@ -151,7 +149,7 @@ class Coordinator {
   /// Times for people count from the coordinator's start.
   [[nodiscard]] Duration since_start(SteadyTime time) const { return time - started_; }
   [[nodiscard]] const wire::MergeDirective& directive() const { return writer_.directive(); }
-  /// The map of the largest group, in its common frame.
+  /// The map of the largest group (or of `seen_by`'s), in its common frame.
   [[nodiscard]] const sharing::FusedMap& common_map() const { return common_map_; }
   /// The newest match of every pair, and every accepted one so far in order of time.
   [[nodiscard]] const std::map<merging::LayerPair, MergeRecord>& newest_matches() const {

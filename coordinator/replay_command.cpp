@@ -84,9 +84,8 @@ void print_outcome(const Replay& replay, const ReplayCommandOptions& options) {
 }
 
 /// Shown on a page, which lives on at the recording's end.
-Result<bool> run_page(std::unique_ptr<Replay> replay, const ReplayCommandOptions& options,
-                      std::optional<double> speed) {
-  auto page = ReplayPage::open(std::move(replay), options, speed);
+Result<bool> run_page(const ReplayCommandOptions& options, std::optional<double> speed) {
+  auto page = ReplayPage::open(options, speed);
   if (!page) return forward_error(page);
   bool is_same = true;
   const auto shown = (*page)->run([&](const Replay& at_end) {
@@ -101,10 +100,9 @@ Result<bool> run_page(std::unique_ptr<Replay> replay, const ReplayCommandOptions
 Result<bool> run(const ReplayCommandOptions& options) {
   const auto speed = read_speed(options.speed);
   if (!speed) return forward_error(speed);
+  if (options.dashboard && *options.dashboard != "off") return run_page(options, *speed);
   auto opened = Replay::open(options.bag);
   if (!opened) return forward_error(opened);
-  if (options.dashboard && *options.dashboard != "off")
-    return run_page(*std::move(opened), options, *speed);
   Replay& replay = **opened;
   ProgressPrinter progress(stdout, replay.steady_now());
   const SteadyTime started = std::chrono::steady_clock::now();

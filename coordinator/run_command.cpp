@@ -12,6 +12,7 @@
 #include "common/files/report_folder.hpp"
 #include "coordinator/coordinator_settings.hpp"
 #include "coordinator/dashboard/dashboard.hpp"
+#include "coordinator/looking_back/look_back.hpp"
 #include "coordinator/progress.hpp"
 #include "coordinator/recording/outlets.hpp"
 #include "coordinator/report.hpp"
@@ -55,11 +56,14 @@ Result<std::optional<dashboard::ListenAddress>> dashboard_address(
 // without one.
 Result<std::unique_ptr<dashboard::Dashboard>> open_dashboard(
     const std::optional<dashboard::ListenAddress>& listen, bool is_asked_for,
-    const proto::CoordinatorConfig& config, Coordinator& coordinator) {
+    const proto::CoordinatorConfig& config, Coordinator& coordinator,
+    dashboard::OpenLookBack look_back) {
   if (!listen) return nullptr;
-  auto opened =
-      dashboard::Dashboard::open(*listen, coordinator, config.grid().cell_size_m(),
-                                 config.merging().area_x_m() * config.merging().area_y_m());
+  const dashboard::MissionFacts facts{config.grid().cell_size_m(),
+                                      config.merging().area_x_m() * config.merging().area_y_m()};
+  auto options = dashboard::page_options(*listen, coordinator.speaker(), facts);
+  options.look_back = std::move(look_back);
+  auto opened = dashboard::Dashboard::open(std::move(options), coordinator);
   if (!opened) {
     if (is_asked_for) return opened;
     spdlog::warn("{}", opened.error().text);
@@ -187,7 +191,8 @@ Result<Settlement> run(const CoordinatorRunOptions& options) {
   if (*storage) {
     if (auto resumed = (*storage)->attach(coordinator); !resumed) return forward_error(resumed);
   }
-  auto page = open_dashboard(*listen, options.dashboard.has_value(), *config, coordinator);
+  auto page = open_dashboard(*listen, options.dashboard.has_value(), *config, coordinator,
+                             look_back_at(outlets.recording()));
   if (!page) return forward_error(page);
   return lead_or_follow(options, coordinator, {storage->get(), outlets, page->get()}, **participant,
                         clock);

@@ -30,20 +30,23 @@ set(adapters common/bag common/doctor common/files common/dds common/net common/
 layer(common/files ${values} common/wire common/sharing idl ${adapters})
 layer(common/dds ${values} common/wire ${adapters})
 layer(common/bag common/base ${adapters})
+layer(common/recording ${values} common/wire common/sharing common/ros2 ${adapters})
 layer(common/net)
 layer(common/doctor common/base ${adapters})
 layer(common/store ${values} common/wire common/sharing idl ${adapters})
 set(helmet agents agents/sensing agents/slam agents/sharing)
 layer(agents/storage ${values} common/wire common/sharing idl ${helmet} ${adapters})
-layer(agents/hud ${values} common/wire common/sharing agents/sharing ${adapters})
+layer(agents/recording ${values} common/wire common/sharing common/ros2 common/recording agents/sharing ${adapters})
+layer(agents/hud ${values} common/wire common/sharing common/search agents/sharing ${adapters})
 layer(coordinator/storage ${values} common/wire common/sharing idl coordinator coordinator/matching coordinator/merging
   ${adapters})
 layer(coordinator/foxglove ${values} common/ros2 common/net)
-layer(coordinator/recording ${values} common/wire common/sharing common/ros2 idl coordinator/foxglove coordinator coordinator/matching
-  coordinator/merging ${adapters})
-layer(coordinator/export ${values} common/wire common/sharing coordinator coordinator/recording ${adapters})
+layer(coordinator/recording ${values} common/wire common/sharing common/ros2 common/recording idl coordinator/foxglove coordinator
+  coordinator/matching coordinator/merging ${adapters})
+layer(coordinator/export ${values} common/wire common/sharing common/recording coordinator coordinator/recording ${adapters})
 layer(coordinator/dashboard ${values} common/wire common/sharing common/search idl coordinator coordinator/matching coordinator/merging
   ${adapters})
+layer(coordinator/looking_back ${values} coordinator coordinator/dashboard coordinator/recording common/recording ${adapters})
 layer(agents/serial common/base)
 layer(agents/rplidar ${values} agents/sensing ${adapters})
 layer(agents/ahrs ${values} agents/sensing ${adapters})

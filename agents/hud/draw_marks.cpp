@@ -1,5 +1,6 @@
 // Who and what is where: on the map, or at its edge.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +12,7 @@ namespace lifeline::hud {
 namespace {
 
 constexpr std::size_t kMostFindsAtEdge = 2;
-constexpr int kSides[] = {0, 4, 3, 5, 6};
+constexpr std::array<int, sharing::kMarkShapes> kSides{0, 4, 3, 5, 6};
 
 std::string metres(const std::optional<double>& distance_m) {
   return distance_m ? fmt::format("{:.0f} m", *distance_m) : "";
@@ -65,10 +66,10 @@ void draw_mate(const HudMate& mate, const Projection& projection, const MapWindo
   } else if (mate.heading_rad && !mate.stale) {
     point_beyond(centre, projection.turn_of(*mate.heading_rad), colour, pen);
   }
-  const int sides = kSides[mate.shape % std::size(kSides)];
+  const int sides = kSides[mate.mark.shape];
   pen.sign(regular(centre, 1.4 * u, sides), colour);
   if (mate.stale) pen.fill(regular(centre, 1.1 * u, sides), kGround);  // hollow
-  const std::string label = mate.heading_rad ? mate.label : "?";
+  const std::string label = mate.heading_rad ? mate.mark.label : "?";
   const double lower = sides == 3 ? 0.75 * u : 0.5 * u;
   pen.text(centre + Point(0.0, lower), label,
            {1.4 * u, mate.stale ? kFaint : kGround, Align::centre});
@@ -96,6 +97,20 @@ void draw_find(const HudFind& find, const Projection& projection, const MapWindo
   if (!find.confirmed)
     pen.text(centre + Point(0.0, 0.5 * u), "?", {1.4 * u, kGround, Align::centre});
   write_at(centre, metres(find.distance_m), kFind, window, pen);
+}
+
+/// A magnifying glass: thin beside all else, since it is only a suggestion.
+void draw_search(const HudSearch& search, const Projection& projection, const MapWindow& window,
+                 Pen& pen) {
+  const double u = pen.unit();
+  const auto [place, centre, inside] = stand_of(search.p_map_m, projection, window);
+  if (!inside) point_beyond(centre, turn_towards(projection.own(), place), kInk, pen);
+  const Point lens = centre - Point(0.25, 0.25) * u, out = Point(1.0, 1.0).normalized(),
+              side = Point(-out.y(), out.x()) * (0.25 * u);
+  const Point begin = lens + 0.9 * u * out, end = lens + 2.0 * u * out;
+  pen.sign({begin + side, end + side, end - side, begin - side}, kInk);
+  pen.ring(lens, 0.9 * u, 0.4 * u, kInk);
+  write_at(centre, fmt::format("SEARCH {:.0f} m", search.distance_m), kInk, window, pen);
 }
 
 void draw_own(const HudPicture& picture, const Projection& projection, Pen& pen) {
@@ -129,6 +144,8 @@ Point MapWindow::edge_towards(const Point& from, const Point& p) const {
 
 void draw_marks(const HudPicture& picture, const Projection& projection, const MapWindow& window,
                 Pen& pen) {
+  // All else lies on top of it.
+  if (picture.search) draw_search(*picture.search, projection, window, pen);
   auto finds = picture.finds;
   std::ranges::sort(finds, {}, &HudFind::distance_m);
   // Of those beyond the edge, the nearest.

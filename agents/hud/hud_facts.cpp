@@ -5,6 +5,7 @@
 
 #include "common/base/printable.hpp"
 #include "common/sharing/fixed_transform.hpp"
+#include "common/sharing/groups.hpp"
 
 namespace lifeline::hud {
 namespace {

@@ -25,6 +25,12 @@ struct FindFacts {
   bool confirmed = false;
 };
 
+/// The nearest part that nobody has searched and nobody else is nearer to.
+struct SearchFacts {
+  Eigen::Vector2d p_map_m{0.0, 0.0};  ///< where the way comes to it, in the own map frame
+  double distance_m = 0.0;            ///< to be walked
+};
+
 /// An alert that is not over and concerns this helmet.
 struct AlertFacts {
   sharing::AlertKey key;
@@ -52,6 +58,7 @@ struct HudFacts {
   std::vector<MateFacts> mates;
   std::vector<FindFacts> finds;
   std::vector<AlertFacts> alerts;
+  std::optional<SearchFacts> search{};  ///< a suggestion
 };
 
 /// `mapped_at`: as of HudFacts.

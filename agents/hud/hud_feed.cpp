@@ -22,8 +22,15 @@ Result<void> follow(const HudCommand& command, sharing::HelmetSharing& helmet) {
 
 }  // namespace
 
+void HudFeed::attach(sharing::HelmetSharing& helmet) {
+  if (hud_ == nullptr) return;
+  advice_ = std::make_shared<SearchAdvice>(helmet.map().store().geometry().cell_size_m);
+  helmet.set_map_listener([advice = advice_](TileIndex tile) { advice->mark(tile); });
+}
+
 void HudFeed::step(sharing::HelmetSharing& helmet, SteadyTime now) {
   if (hud_ == nullptr) return;
+  if (advice_ != nullptr) advice_->step(helmet, now);
   bool acted = false;
   for (const HudCommand& command : hud_->take_commands()) {
     if (auto done = follow(command, helmet); !done) spdlog::warn("{}", done.error().text);
@@ -34,7 +41,9 @@ void HudFeed::step(sharing::HelmetSharing& helmet, SteadyTime now) {
   // A lidar that is silent makes no newer map, however often its state is told.
   if (helmet.state().scans != scans_) mapped_at_ = now;
   scans_ = helmet.state().scans;
-  hud_->put(collect_facts(helmet, mapped_at_));
+  HudFacts facts = collect_facts(helmet, mapped_at_);
+  if (advice_ != nullptr) facts.search = advice_->facts();
+  hud_->put(std::move(facts));
 }
 
 }  // namespace lifeline::hud

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "agents/hud/hud.hpp"
+#include "agents/hud/search_advice.hpp"
 
 namespace lifeline::hud {
 
@@ -13,6 +14,9 @@ class HudFeed {
   /// Without a HUD it does nothing.
   explicit HudFeed(std::unique_ptr<Hud> hud) : hud_(std::move(hud)) {}
 
+  /// Hears of what changes on the helmet's common map. Before the helmet's first step.
+  void attach(sharing::HelmetSharing& helmet);
+
   template <typename Cells>
   void pass(const Cells& cells) {
     if (hud_ != nullptr) hud_->put(cells);
@@ -21,6 +25,7 @@ class HudFeed {
 
  private:
   std::unique_ptr<Hud> hud_;
+  std::shared_ptr<SearchAdvice> advice_;  ///< the helmet tells it of its map
   SteadyTime facts_due_{};
   std::optional<SteadyTime> mapped_at_;
   std::uint64_t scans_ = 0;

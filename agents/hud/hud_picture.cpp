@@ -1,9 +1,7 @@
 #include "agents/hud/hud_picture.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -12,7 +10,6 @@
 namespace lifeline::hud {
 namespace {
 
-constexpr std::size_t kShapes = 5;
 constexpr double kArrived_m = 2.0;
 // Where the way is looked at to say where to turn: not at the next block, which lies to the side as
 // often as ahead.
@@ -63,7 +60,7 @@ const MateFacts* find_mate(const HudFacts& facts, const std::string& id) {
 void add_mates(const HudFacts& facts, SteadyTime now, HudPicture& picture) {
   for (const MateFacts& mate : facts.mates) {
     if (!mate.T_map_mate) continue;
-    HudMate shown{label_of(mate.id), shape_of(mate.id), mate.T_map_mate->translation()};
+    HudMate shown{sharing::mark_of(mate.id), mate.T_map_mate->translation()};
     if (mate.trust_percent > 0) shown.heading_rad = mate.T_map_mate->yaw_rad;
     shown.distance_m = distance_to(picture, shown.p_map_m);
     shown.age_s = seconds_since(mate.heard_at, now);
@@ -137,29 +134,16 @@ void add_way_out(const HudView& view, HudPicture& picture) {
   picture.way_out = std::move(shown);
 }
 
+/// Who is called out, calls for help or hears somebody call has other things to do.
+void add_search(const HudFacts& facts, HudPicture& picture) {
+  const bool is_urgent = std::ranges::any_of(facts.alerts, [](const AlertFacts& alert) {
+    return alert.kind == wire::AlertKind::mayday || alert.kind == wire::AlertKind::evacuate;
+  });
+  if (!facts.search || !picture.position_known || is_urgent) return;
+  picture.search = HudSearch{facts.search->p_map_m, facts.search->distance_m};
+}
+
 }  // namespace
-
-std::string label_of(const std::string& id) {
-  const auto upper = [](char c) {
-    return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  };
-  const std::size_t last = id.find_last_not_of("0123456789");
-  std::string number = last == std::string::npos ? id : id.substr(last + 1);
-  while (number.size() > 1 && number.front() == '0') number.erase(0, 1);
-  if (number.size() > 2) number.erase(0, number.size() - 2);
-  if (last == std::string::npos) return number;  // nothing but a number
-  std::string label(1, upper(id[0]));
-  if (!number.empty()) return label + number;
-  if (id.size() > 1) label += upper(id[1]);
-  return label;
-}
-
-std::size_t shape_of(const std::string& id) {
-  return std::accumulate(
-             id.begin(), id.end(), std::size_t{0},
-             [](std::size_t sum, char c) { return 31 * sum + static_cast<unsigned char>(c); }) %
-         kShapes;
-}
 
 bool is_position_known(const sharing::HelmetState& state) {
   return state.trust_percent > 0 &&
@@ -195,6 +179,7 @@ HudPicture compose_picture(const HudFacts& facts, const HudView& view, SteadyTim
                              find.confirmed, distance_to(picture, find.p_map_m)});
   }
   add_way_out(view, picture);
+  add_search(facts, picture);
   add_bands(facts, view, now, picture);
   return picture;
 }

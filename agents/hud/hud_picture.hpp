@@ -7,13 +7,13 @@
 
 #include "agents/hud/hud_facts.hpp"
 #include "agents/hud/way_out.hpp"
+#include "common/sharing/helmet_mark.hpp"
 
 namespace lifeline::hud {
 
 /// A team-mate on the map, or at its edge.
 struct HudMate {
-  std::string label;      ///< two or three characters
-  std::size_t shape = 0;  ///< 0: circle, square, triangle, pentagon, hexagon
+  sharing::HelmetMark mark;
   Eigen::Vector2d p_map_m{0.0, 0.0};
   std::optional<double> heading_rad{};  ///< in the map frame; empty: shown as "?"
   std::optional<double> distance_m{};   ///< empty where the own position is lost
@@ -27,6 +27,12 @@ struct HudFind {
   bool is_tag = false;
   bool confirmed = false;
   std::optional<double> distance_m{};  ///< as of a mate
+};
+
+/// Where to search next: a suggestion.
+struct HudSearch {
+  Eigen::Vector2d p_map_m{0.0, 0.0};
+  double distance_m = 0.0;  ///< to be walked
 };
 
 enum class BandKind { own_mayday, evacuate, mayday, roll_call, lost };
@@ -64,6 +70,7 @@ struct HudPicture {
   std::vector<HudMate> mates;
   std::vector<HudFind> finds;
   std::optional<HudWayOut> way_out;  ///< empty: none is known
+  std::optional<HudSearch> search;   ///< empty: there is none, or it must not be thought of now
   std::vector<HudBand> bands;        ///< the most urgent first
   double hold_share = 0.0;           ///< of the button's hold, 0 to 1
   bool hold_cancels = false;         ///< a hold takes the own mayday back
@@ -86,11 +93,6 @@ struct HudView {
 /// A pure function of its arguments.
 [[nodiscard]] HudPicture compose_picture(const HudFacts& facts, const HudView& view,
                                          SteadyTime now);
-
-/// What a mate is called on the map: the first letter and the number at the end of the id ("ff12"
-/// is F12), or its first two letters. Alike on all helmets.
-[[nodiscard]] std::string label_of(const std::string& id);
-[[nodiscard]] std::size_t shape_of(const std::string& id);
 
 /// Whether SLAM knows where the head is, and which way it looks.
 [[nodiscard]] bool is_position_known(const sharing::HelmetState& state);

@@ -171,6 +171,11 @@ wire::AgentStatus HelmetSharing::status() const {
   status.samples_refused = refused();
   status.bytes_sent = channels_.bytes_sent ? channels_.bytes_sent() : 0;
   status.bytes_queued = link_.octets_queued();
+  if (channels_.recording) {
+    const RecordingStatus recording = channels_.recording();
+    status.recording = recording.state;
+    status.samples_unrecorded = recording.unrecorded;
+  }
   status.tiles_behind = static_cast<std::uint32_t>(publisher_.waiting());
   status.explored_m2 = static_cast<float>(known_area_m2(map_.store(), config_.layer));
   status.slam_ms_median = static_cast<float>(state_.slam_ms_median);

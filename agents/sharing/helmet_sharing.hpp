@@ -16,6 +16,7 @@
 #include "common/sharing/link_budget.hpp"
 #include "common/sharing/one_way_watch.hpp"
 #include "common/sharing/pose_watch.hpp"
+#include "common/sharing/recording_status.hpp"
 #include "common/sharing/roster.hpp"
 #include "common/sharing/tile_exchange.hpp"
 
@@ -44,6 +45,8 @@ struct HelmetChannels {
   std::unique_ptr<wire::Outbox<wire::Alert>> alert{};
   /// Of the team-mates. Only where somebody looks at them: each reader costs a radio.
   std::unique_ptr<wire::Inbox<wire::HelmetPose>> poses{};
+  /// Asked for the status, where there is a recording.
+  std::function<RecordingStatus()> recording{};
 };
 
 struct HelmetSharingConfig {
@@ -101,6 +104,11 @@ class HelmetSharing {
   /// Hears of each tile of others that is taken in, to keep it.
   void set_tile_listener(ReplicaStore::Listener listener) {
     map_.store().set_listener(std::move(listener));
+  }
+
+  /// Hears of each tile of the common map that changed or vanished.
+  void set_map_listener(SharedMap::MapListener listener) {
+    map_.set_map_listener(std::move(listener));
   }
 
   /// For measuring: hear of each own revision that leaves, and of each tile that came into the

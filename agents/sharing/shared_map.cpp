@@ -4,22 +4,9 @@
 
 #include "common/sharing/accept.hpp"
 #include "common/sharing/fixed_transform.hpp"
+#include "common/sharing/groups.hpp"
 
 namespace lifeline::sharing {
-
-std::vector<Placement> group_of(const wire::MergeDirective& directive, const LayerKey& layer) {
-  const auto own = std::find_if(
-      directive.members.begin(), directive.members.end(),
-      [name = to_layer_name(layer)](const auto& member) { return member.layer == name; });
-  std::vector<Placement> group;
-  if (own == directive.members.end()) return group;
-  for (const auto& member : directive.members) {
-    if (member.group != own->group) continue;
-    if (auto key = to_layer_key(member.layer))
-      group.push_back({*std::move(key), member.T_common_map});
-  }
-  return group;
-}
 
 SharedMap::SharedMap(LayerKey own_layer, GridGeometry geometry)
     : own_layer_(std::move(own_layer)),
@@ -58,7 +45,9 @@ void SharedMap::update() {
     common_map_.mark(changed);
     peers_map_.mark(changed);
   }
-  common_map_.update(store_);
+  for (const TileIndex tile : common_map_.update(store_)) {
+    if (map_listener_) map_listener_(tile);
+  }
   if (fused_listener_) tell_fused(taken_in);
   const auto changed = peers_map_.update(store_);
   changed_peer_tiles_.insert(changed_peer_tiles_.end(), changed.begin(), changed.end());

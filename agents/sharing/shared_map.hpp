@@ -39,6 +39,10 @@ class SharedMap {
   using FusedListener = std::function<void(const LayerKey&, TileIndex, Revision)>;
   void set_fused_listener(FusedListener listener) { fused_listener_ = std::move(listener); }
 
+  /// Hears of each tile of the common map whose cells changed or that vanished.
+  using MapListener = std::function<void(TileIndex)>;
+  void set_map_listener(MapListener listener) { map_listener_ = std::move(listener); }
+
   /// Changes of the peers' part since the last call, if any.
   [[nodiscard]] std::optional<PeerUpdate> take_peer_update();
 
@@ -63,12 +67,8 @@ class SharedMap {
   wire::MergeDirective directive_;
   double own_weight_ = 0.5;
   FusedListener fused_listener_;
+  MapListener map_listener_;
   std::vector<TileIndex> changed_peer_tiles_;
 };
-
-/// Where the members of the group that holds `layer` lie in the common frame; empty when no group
-/// holds it.
-[[nodiscard]] std::vector<Placement> group_of(const wire::MergeDirective& directive,
-                                              const LayerKey& layer);
 
 }  // namespace lifeline::sharing

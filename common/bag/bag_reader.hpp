@@ -1,39 +1,24 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/bag/bag_file.hpp"
-#include "common/base/time.hpp"
+#include "common/bag/message_source.hpp"
 
 namespace lifeline::bag {
 
-/// One message as it was recorded.
-struct Message {
-  Topic topic;
-  Timestamp stamp{};  ///< when it was recorded, by the recorder's clock
-  std::vector<std::uint8_t> cdr;
-};
-
 /// All messages of a rosbag2 recording (SQLite), file after file in the order of their beginnings,
 /// within a file in the order of their stamps. From anywhere; metadata.yaml is not needed.
-class BagReader {
+class BagReader final : public MessageSource {
  public:
   /// A bag's folder, or one of its .db3 files. not_found where there is none, else as
   /// BagFile::open().
   [[nodiscard]] static Result<BagReader> open(const std::string& target);
 
-  /// Empty at the end.
-  [[nodiscard]] Result<std::optional<Message>> next();
-  /// The stamps of the first and the last message; empty for a bag without any.
-  struct Span {
-    Timestamp first{};
-    Timestamp last{};
-  };
-  [[nodiscard]] Result<std::optional<Span>> span() const;
-  [[nodiscard]] const std::string& target() const { return target_; }
+  [[nodiscard]] Result<std::optional<Message>> next() override;
+  [[nodiscard]] Result<std::optional<Span>> span() const override;
+  [[nodiscard]] const std::string& target() const override { return target_; }
 
  private:
   explicit BagReader(std::string target) : target_(std::move(target)) {}

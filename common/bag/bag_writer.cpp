@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/base/check.hpp"
 #include "common/files/atomic_file.hpp"
 
 namespace lifeline::bag {
@@ -62,8 +63,12 @@ Result<void> BagWriter::open(const std::filesystem::path& folder) {
   if (!topic) return forward_error(topic);
   auto message = prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES(?1, ?2, ?3)");
   if (!message) return forward_error(message);
+  auto read = prepare(
+      "SELECT topic_id, timestamp, data FROM messages WHERE id > ?1 AND id <= ?2 ORDER BY id");
+  if (!read) return forward_error(read);
   insert_topic_ = *std::move(topic);
   insert_message_ = *std::move(message);
+  read_messages_ = *std::move(read);
   return write_metadata();
 }
 
@@ -181,10 +186,48 @@ Result<void> BagWriter::close() {
   if (auto committed = commit(); !committed) return committed;
   insert_topic_.reset();
   insert_message_.reset();
+  read_messages_.reset();
   // Back to a file that who may only read can open.
   if (auto done = execute("PRAGMA journal_mode = DELETE"); !done) return done;
   database_.reset();
   return write_metadata();
+}
+
+Result<std::vector<Message>> BagWriter::read(std::uint64_t& after, std::uint64_t most,
+                                             const Wanted& wanted) {
+  if (!read_messages_) return fail(ErrorCode::unavailable, "{}: is closed", file_);
+  // Ids count messages: nothing is ever removed but what was never committed.
+  const std::uint64_t until = std::min(after + most, metadata_.messages);
+  std::vector<Message> messages;
+  sqlite3_stmt* row = read_messages_.get();
+  sqlite3_bind_int64(row, 1, static_cast<std::int64_t>(after));
+  sqlite3_bind_int64(row, 2, static_cast<std::int64_t>(until));
+  int code = SQLITE_ROW;
+  while ((code = sqlite3_step(row)) == SQLITE_ROW) {
+    const auto place = static_cast<std::size_t>(sqlite3_column_int64(row, 0)) - 1;
+    LIFELINE_CHECK(place < metadata_.topics.size());
+    const Topic& topic = metadata_.topics[place].topic;
+    if (!wanted(topic)) continue;  // its data stays on the disk
+    Message message{topic, Timestamp(Duration(sqlite3_column_int64(row, 1))), {}};
+    const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row, 2));
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(row, 2));
+    if (bytes != nullptr) message.cdr.assign(bytes, bytes + size);
+    messages.push_back(std::move(message));
+  }
+  // Left open it would hold the log, which could not be taken in.
+  sqlite3_reset(row);
+  if (code != SQLITE_DONE) {
+    return fail(ErrorCode::unavailable, "{}: cannot be read back ({})", file_,
+                sqlite3_errstr(code));
+  }
+  after = std::max(after, until);
+  return messages;
+}
+
+std::optional<MessageSource::Span> BagWriter::span() const {
+  if (metadata_.messages == 0) return std::nullopt;
+  return MessageSource::Span{Timestamp(Duration(metadata_.first_ns)),
+                             Timestamp(Duration(metadata_.last_ns))};
 }
 
 }  // namespace lifeline::bag

@@ -2,11 +2,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/bag/bag_metadata.hpp"
+#include "common/bag/message_source.hpp"
 #include "common/base/result.hpp"
 #include "common/base/time.hpp"
 
@@ -37,6 +41,16 @@ class BagWriter {
   /// metadata. Nothing can be appended afterwards.
   [[nodiscard]] Result<void> close();
 
+  using Wanted = std::function<bool(const Topic&)>;
+  /// What was committed, in the order in which it was appended: looks at most at `most` messages
+  /// behind the first `after`, gives those of `wanted` topics, and moves `after` on. Nobody else
+  /// can read while this writes: its lock keeps them out. unavailable once closed, or where the
+  /// disk refuses.
+  [[nodiscard]] Result<std::vector<Message>> read(std::uint64_t& after, std::uint64_t most,
+                                                  const Wanted& wanted);
+  /// Of what was committed.
+  [[nodiscard]] std::optional<MessageSource::Span> span() const;
+
   /// How many were committed, and how many wait for it.
   [[nodiscard]] std::uint64_t messages() const { return metadata_.messages; }
   [[nodiscard]] std::uint64_t pending() const { return pending_; }
@@ -63,7 +77,7 @@ class BagWriter {
   std::filesystem::path folder_;
   std::string file_;
   store::Database database_;
-  store::Statement insert_topic_, insert_message_;
+  store::Statement insert_topic_, insert_message_, read_messages_;
   Metadata metadata_;  ///< of what was committed
   std::map<std::string, Row> rows_;
   bool begun_ = false;  ///< a transaction

@@ -12,4 +12,14 @@ namespace lifeline {
 /// means info.
 void set_up_log(std::string_view name, std::string_view level);
 
+/// While one lives, what its thread logs below `error` is left out of set_up_log()'s log: who plays
+/// a mission again would say all of it again.
+class QuietLog {
+ public:
+  QuietLog();
+  ~QuietLog();
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+};
+
 }  // namespace lifeline

@@ -11,11 +11,13 @@ namespace lifeline::cli {
 std::optional<int> print_completion(const CLI::App& app, const std::string& program, int argc,
                                     const char* const* argv) {
   if (argc < 2 || std::string_view(argv[1]) != "completion") return std::nullopt;
-  if (argc == 3 && std::string_view(argv[2]) == "bash") {
-    fmt::print("{}", bash_completion(app, program));
-    return 0;
+  if (argc == 3) {
+    if (const auto script = completion_for(argv[2], app, program)) {
+      fmt::print("{}", *script);
+      return 0;
+    }
   }
-  fmt::print(stderr, "{}: completion: there is `completion bash` alone\n", program);
+  fmt::print(stderr, "{}: completion: give the shell: bash, zsh or fish\n", program);
   return 2;
 }
 

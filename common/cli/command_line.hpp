@@ -8,8 +8,9 @@
 
 namespace lifeline::cli {
 
-/// `PROGRAM completion bash` prints the script that makes bash complete the program's command line.
-/// Then the answer is the exit status; nothing where something else was asked for.
+/// `PROGRAM completion SHELL` (bash, zsh, fish) prints the script that makes that shell complete
+/// the program's command line. Then the answer is the exit status; nothing where something else was
+/// asked for.
 [[nodiscard]] std::optional<int> print_completion(const CLI::App& app, const std::string& program,
                                                   int argc, const char* const* argv);
 

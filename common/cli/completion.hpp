@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -11,8 +13,16 @@ namespace lifeline::cli {
 inline constexpr const char* kFile = "FILE";
 inline constexpr const char* kFolder = "FOLDER";
 
-/// A script that makes bash complete a program's commands, options and values, made from the same
-/// table as its --help. It needs nothing but bash.
+// Scripts that make a shell complete a program's commands, options and values, made from the same
+// table as its --help. They need nothing but the shell.
+
 [[nodiscard]] std::string bash_completion(const CLI::App& app, const std::string& program);
+/// To be sourced after compinit, or as the file _PROGRAM of a folder in $fpath.
+[[nodiscard]] std::string zsh_completion(const CLI::App& app, const std::string& program);
+[[nodiscard]] std::string fish_completion(const CLI::App& app, const std::string& program);
+
+/// Of the shell of that name; empty: there is none for it.
+[[nodiscard]] std::optional<std::string> completion_for(std::string_view shell, const CLI::App& app,
+                                                        const std::string& program);
 
 }  // namespace lifeline::cli

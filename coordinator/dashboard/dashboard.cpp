@@ -32,26 +32,21 @@ Result<void> rule(Coordinator& coordinator, const RuleFind& order) {
 
 }  // namespace
 
-Dashboard::Dashboard(Coordinator& coordinator)
-    : coordinator_(&coordinator), observer_(std::in_place, coordinator, feed_) {}
-
-Result<std::unique_ptr<Dashboard>> Dashboard::open(const ListenAddress& listen,
-                                                   Coordinator& coordinator, double cell_size_m,
-                                                   double area_m2) {
+ServerOptions page_options(const ListenAddress& listen, const sharing::Speaker& speaker,
+                           const MissionFacts& facts) {
   ServerOptions options;
   options.listen = listen;
   options.assets = page_assets();
-  options.greeting.cell_size_m = cell_size_m;
-  options.greeting.area_m2 = area_m2;
-  return open(std::move(options), coordinator);
+  options.greeting = {speaker.mission_id, speaker.id.text(), speaker.incarnation.value,
+                      facts.cell_size_m, facts.area_m2};
+  return options;
 }
+
+Dashboard::Dashboard(Coordinator& coordinator)
+    : coordinator_(coordinator), observer_(coordinator, feed_) {}
 
 Result<std::unique_ptr<Dashboard>> Dashboard::open(ServerOptions options,
                                                    Coordinator& coordinator) {
-  const auto& speaker = coordinator.speaker();
-  options.greeting.mission_id = speaker.mission_id;
-  options.greeting.coordinator_id = speaker.id.text();
-  options.greeting.incarnation = speaker.incarnation.value;
   std::unique_ptr<Dashboard> dashboard(new Dashboard(coordinator));
   auto server = Server::open(std::move(options), dashboard->feed_);
   if (!server) return forward_error(server);
@@ -64,50 +59,27 @@ void Dashboard::step(SteadyTime now) {
     const auto done = follow(order.request);
     feed_.put(Outcome{order.client, order.request.request_id, done ? "" : done.error().text});
   }
-  observer_->step(now);
-}
-
-void Dashboard::show(const Timeline& timeline) {
-  // Often enough for a slider to run; a page that hears nothing for long joins anew.
-  constexpr Duration kInterval = std::chrono::milliseconds(200);
-  is_recording_ = true;
-  const auto now = std::chrono::steady_clock::now();
-  if (now < beat_due_) return;
-  beat_due_ = now + kInterval;
-  feed_.put(Section::timeline, timeline_frame(timeline, ++beats_));
-}
-
-void Dashboard::look_at(Coordinator& coordinator) {
-  observer_->take_back();
-  coordinator_ = &coordinator;
-  observer_.emplace(coordinator, feed_);
+  observer_.step(now);
 }
 
 Result<void> Dashboard::follow(const ClientRequest& request) {
-  const bool steers = std::holds_alternative<Steer>(request.content);
-  if (is_recording_ && !steers && !std::holds_alternative<Watch>(request.content))
-    return fail(ErrorCode::wrong_use, "this is a recording: what is done is done");
-  if (!is_recording_ && steers)
-    return fail(ErrorCode::wrong_use, "this mission is live: there is no other time to go to");
+  // The server's own business.
+  const auto not_here = [] {
+    return Result<void>(
+        fail(ErrorCode::wrong_use, "this mission is live: there is no other time to go to"));
+  };
   return std::visit(
       Overloaded{
-          [](const Watch&) { return Result<void>(); },
-          [&](const Steer& order) {
-            // Wishes that come faster than they are followed: the last place is the one that
-            // counts.
-            const auto to = steer_ && !order.to ? steer_->to : order.to;
-            steer_ = Steer{order.is_paused, order.speed, to};
-            return Result<void>();
-          },
-          [&](const RuleFind& order) { return rule(*coordinator_, order); },
+          [](const Watch&) { return Result<void>(); }, [&](const Steer&) { return not_here(); },
+          [&](const GoLive&) { return not_here(); },
+          [&](const RuleFind& order) { return rule(coordinator_, order); },
           [&](const RuleMerge& order) {
-            return order.is_merged ? coordinator_->merge(order.pair)
-                                   : coordinator_->part(order.pair);
+            return order.is_merged ? coordinator_.merge(order.pair) : coordinator_.part(order.pair);
           },
           [&](const RaiseAlert& order) {
-            return coordinator_->raise(order.kind, order.subject_id, order.text);
+            return coordinator_.raise(order.kind, order.subject_id, order.text);
           },
-          [&](const AnswerAlert& order) { return coordinator_->answer(order.alert, order.state); }},
+          [&](const AnswerAlert& order) { return coordinator_.answer(order.alert, order.state); }},
       request.content);
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "common/sharing/accept.hpp"
+#include "common/sharing/helmet_mark.hpp"
 #include "coordinator/dashboard/frames.hpp"
 #include "coordinator/dashboard/on_common.hpp"
 #include "coordinator/dashboard/readable.hpp"
@@ -96,6 +97,11 @@ std::string fleet_frame(const Coordinator& coordinator, const Observed& observed
     fill_status(entry.status, agent);
     if (const auto number = observed.numbers.find(id); number != observed.numbers.end())
       agent.set_number(number->second);
+    if (agent.is_helmet()) {
+      const sharing::HelmetMark mark = sharing::mark_of(agent.agent_id());
+      agent.set_label(mark.label);
+      agent.set_shape(mark.shape);
+    }
     agent.set_presence(static_cast<pb::Presence>(sharing::Roster::presence(entry, now)));
     agent.set_heard_at_s(to_seconds(coordinator.since_start(entry.heard_at)));
     agent.set_is_id_used_twice(entry.contested || entry.status.duplicate_id_heard);

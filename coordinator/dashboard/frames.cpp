@@ -29,6 +29,9 @@ std::string alerts_frame(const Coordinator& coordinator) {
                            entry.alert.state == wire::AlertState::raised &&
                            !sharing::has_answered(entry.alert, self));
   }
+  for (const auto& [id, entry] : coordinator.roster().entries()) {
+    if (entry.status.role == wire::Role::helmet) alerts.add_helmets(id);
+  }
   return frame.SerializeAsString();
 }
 

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "coordinator/dashboard/session.hpp"
+#include "coordinator/dashboard/timeline.hpp"
 
 namespace lifeline::dashboard {
 
@@ -25,6 +26,7 @@ LiveSession::LiveSession(Hub& hub, std::shared_ptr<Seat> seat, beast::tcp_stream
       may_send_(hub.options.limits.frames_at_once) {}
 
 LiveSession::~LiveSession() {
+  if (past_ && past_->player) past_->player->end();
   hub_.live.erase(id_);
   hub_.feed.set_watchers(hub_.live.size());
 }
@@ -74,10 +76,56 @@ void LiveSession::take(const beast::flat_buffer& buffer) {
     watch(*wanted);
     return answer(request->request_id, "");
   }
-  const std::uint32_t request_id = request->request_id;
+  if (hub_.options.look_back) {
+    if (std::holds_alternative<Steer>(request->content)) return steer(*std::move(request));
+    if (std::holds_alternative<GoLive>(request->content)) {
+      go_live("");
+      return answer(request->request_id, "");
+    }
+  }
+  order(*std::move(request));
+}
+
+void LiveSession::order(ClientRequest request) {
+  const std::uint32_t request_id = request.request_id;
   if (role_ != Role::commander) return answer(request_id, "this page may only look");
-  if (!hub_.feed.put(ClientOrder{id_, *std::move(request)}))
+  // What is shown of the past is no ground for an order; alerts are those of now.
+  if (past_ && !std::holds_alternative<AnswerAlert>(request.content))
+    return answer(request_id, "this page looks back: go back to live first");
+  if (!hub_.feed.put(ClientOrder{id_, std::move(request)}))
     answer(request_id, "too many orders wait already; try again");
+}
+
+void LiveSession::steer(ClientRequest request) {
+  const std::uint32_t request_id = request.request_id;
+  if (past_) {
+    if (!past_->feed.put(ClientOrder{id_, std::move(request)}))
+      answer(request_id, "too many orders wait already; try again");
+    return;
+  }
+  if (!std::get<Steer>(request.content).to)
+    return answer(request_id, "this mission is live: say which time to go to");
+  auto past = hub_.look_back(shared_from_this(), role_, {id_, std::move(request)});
+  if (!past) return answer(request_id, past.error().text);
+  past_ = *std::move(past);
+  begin_anew();
+}
+
+void LiveSession::go_live(const std::string& why) {
+  if (!past_) return;
+  past_->player->end();
+  past_->page.reset();
+  past_.reset();
+  begin_anew();
+  first_.push_back(std::make_shared<const std::string>(live_frame(why)));
+  pump();
+}
+
+void LiveSession::begin_anew() {
+  for (std::size_t i = 0; i < kSections; ++i) {
+    if (static_cast<Section>(i) != Section::alerts) seen_[i] = 0;
+  }
+  for (auto& [map, seen] : maps_) seen = 0;
 }
 
 void LiveSession::watch(const Watch& wanted) {
@@ -119,15 +167,30 @@ Frame LiveSession::next() {
     first_.pop_front();
     return frame;
   }
-  for (std::size_t i = 0; i < kSections; ++i) {
-    if (seen_[i] == hub_.versions[i]) continue;
-    seen_[i] = hub_.versions[i];
-    return hub_.sections[i];
+  // Alerts are of now, wherever a page looks.
+  if (auto frame = newer(hub_.picture, Section::alerts)) return frame;
+  const Picture& shown = past_ ? past_->picture : hub_.picture;
+  if (past_) {
+    // It knows that it looks back before it sees anything of that time.
+    if (auto frame = newer(shown, Section::timeline)) return frame;
+    if (seen_[static_cast<std::size_t>(Section::timeline)] == 0) return nullptr;
   }
+  for (std::size_t i = 0; i < kSections; ++i) {
+    if (static_cast<Section>(i) == Section::alerts) continue;
+    if (auto frame = newer(shown, static_cast<Section>(i))) return frame;
+  }
+  TileBook& book = past_ ? past_->picture.book : hub_.picture.book;
   for (auto& [map, seen] : maps_) {
-    if (auto frame = hub_.book.next_frame(map, seen, hub_.options.limits.tile_frame)) return frame;
+    if (auto frame = book.next_frame(map, seen, hub_.options.limits.tile_frame)) return frame;
   }
   return nullptr;
+}
+
+Frame LiveSession::newer(const Picture& picture, Section section) {
+  const auto i = static_cast<std::size_t>(section);
+  if (seen_[i] == picture.versions[i]) return nullptr;
+  seen_[i] = picture.versions[i];
+  return picture.sections[i];
 }
 
 void LiveSession::pump() {

@@ -98,6 +98,8 @@ Result<Content> decode_content(const pb::ClientFrame& frame) {
       return decode(frame.answer_alert());
     case pb::ClientFrame::kSteer:
       return decode(frame.steer());
+    case pb::ClientFrame::kGoLive:
+      return GoLive{};
     case pb::ClientFrame::CONTENT_NOT_SET:
       break;
   }

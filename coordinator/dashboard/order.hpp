@@ -20,8 +20,8 @@ namespace lifeline::dashboard {
 inline constexpr std::size_t kMaxClientFrame = 2048;
 inline constexpr std::size_t kMaxWatchedMaps = 4;
 
-/// A client's wishes, checked. The maps of Watch are the server's own business; the rest goes to
-/// the coordinator.
+/// A client's wishes, checked. The maps of Watch are the server's own business, and in a live
+/// mission Steer and GoLive are; the rest goes to the coordinator.
 struct Watch {
   std::vector<std::string> maps;  ///< each once; "" is the common map
 };
@@ -45,7 +45,7 @@ struct AnswerAlert {
 
 struct ClientRequest {
   std::uint32_t request_id = 0;
-  std::variant<Watch, RuleFind, RuleMerge, RaiseAlert, AnswerAlert, Steer> content;
+  std::variant<Watch, RuleFind, RuleMerge, RaiseAlert, AnswerAlert, Steer, GoLive> content;
 };
 
 /// A client's frame (ClientFrame of idl/dashboard.proto). bad_data for whatever is no such thing:

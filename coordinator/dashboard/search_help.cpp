@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "common/sharing/accept.hpp"
-#include "coordinator/dashboard/on_common.hpp"
+#include "common/search/find_seekers.hpp"
 #include "coordinator/dashboard/zstd_frame.hpp"
 #include "idl/dashboard.pb.h"
 
@@ -76,28 +75,14 @@ void SearchHelp::follow_map() {
   }
 }
 
-std::vector<search::Seeker> SearchHelp::seekers(SteadyTime now) const {
-  std::vector<search::Seeker> seekers;
-  for (const auto& [id, entry] : coordinator_.poses().entries()) {
-    const auto layer = sharing::to_layer_key({id, entry.pose.map_id, entry.pose.floor});
-    const auto known = coordinator_.roster().entries().find(id);
-    if (!layer || known == coordinator_.roster().entries().end()) continue;
-    if (sharing::Roster::presence(known->second, now) == sharing::Presence::lost ||
-        known->second.status.state == wire::AgentState::lost)
-      continue;
-    if (const auto place = on_common(coordinator_, *layer))
-      seekers.push_back({id, place->T_common_map * entry.pose.T_map_head.translation()});
-  }
-  return seekers;
-}
-
 bool SearchHelp::step(SteadyTime now, bool is_watched) {
   follow_map();
   if (!is_watched) return false;
   if (planner_.is_at_work()) return planner_.work();
   if (now >= plan_due_) {
     plan_due_ = now + kPlanInterval;
-    planner_.begin(seekers(now));
+    planner_.begin(search::find_seekers(coordinator_.poses(), coordinator_.roster(),
+                                        coordinator_.common_map().placements(), now));
   }
   return false;
 }

@@ -32,7 +32,6 @@ class SearchHelp {
 
  private:
   void follow_map();
-  [[nodiscard]] std::vector<search::Seeker> seekers(SteadyTime now) const;
 
   const Coordinator& coordinator_;
   search::SearchPlanner planner_;

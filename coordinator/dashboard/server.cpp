@@ -20,24 +20,6 @@ constexpr int kSendBuffer = 256 * 1024;
 
 }  // namespace
 
-void Hub::take_news() {
-  auto news = feed.take();
-  for (std::size_t i = 0; i < kSections; ++i) {
-    if (!news.sections[i]) continue;
-    sections[i] = std::move(news.sections[i]);
-    ++versions[i];
-  }
-  for (auto& tile : news.tiles) book.put(std::move(tile));
-  for (const auto& outcome : news.outcomes) {
-    const auto client = live.find(outcome.client);
-    if (client == live.end()) continue;
-    if (auto session = client->second.lock()) session->answer(outcome.request_id, outcome.why_not);
-  }
-  for (const auto& [id, client] : std::map(live)) {
-    if (auto session = client.lock()) session->pump();
-  }
-}
-
 struct Server::Core {
   Core(ServerOptions options, Feed& feed)
       : hub{.options = std::move(options), .feed = feed, .access = Access({})} {}
@@ -66,6 +48,7 @@ Result<void> Server::Core::open() {
   }
   listen.port = listener.endpoint().port();
   hub.access = Access(listen);
+  hub.post = [this](std::function<void()> work) { asio::post(context, std::move(work)); };
   return {};
 }
 
@@ -104,6 +87,9 @@ Server::~Server() {
   core_->hub.feed.set_wake({});
   core_->hub.feed.set_watchers(0);
   core_->context.stop();
+  core_->thread.join();
+  // Who plays the past wakes the context: it ends before that.
+  for (const auto& past : core_->hub.pasts) past->player.reset();
 }
 
 const ListenAddress& Server::listen() const {

@@ -12,6 +12,7 @@
 #include "coordinator/dashboard/feed.hpp"
 #include "coordinator/dashboard/frames.hpp"
 #include "coordinator/dashboard/listen_address.hpp"
+#include "coordinator/dashboard/look_back.hpp"
 
 namespace lifeline::dashboard {
 
@@ -25,6 +26,7 @@ struct Asset {
 struct ServerLimits {
   std::size_t connections = 48;  ///< of all kinds
   std::size_t watchers = 16;     ///< live ones
+  std::size_t look_backs = 2;    ///< pages that look back at once, one of them a commander's
   double frames_per_s = 20;      ///< that a client may send, on average
   double frames_at_once = 40;
   std::size_t tile_frame = 128 * 1024;  ///< about the largest frame of tiles, octets
@@ -37,6 +39,8 @@ struct ServerOptions {
   std::span<const Asset> assets;
   Greeting greeting;
   ServerLimits limits;
+  /// Of a mission that goes on. Without it Steer goes to who feeds the pages, all of them alike.
+  OpenLookBack look_back{};
 };
 
 /// The page and its live frames, in a thread of its own. Whatever a client does or fails to do, the

@@ -3,11 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <vector>
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
@@ -20,20 +21,46 @@ namespace lifeline::dashboard {
 
 class LiveSession;
 
+/// The newest of everything that a page may be told.
+struct Picture {
+  TileBook book{};
+  std::array<Frame, kSections> sections{};
+  std::array<std::uint64_t, kSections> versions{};  ///< 0: nothing yet
+
+  void take(Feed::News& news);
+};
+
+/// What a page sees that looks back. The player ends before what it fills.
+struct Past {
+  Feed feed{};
+  Picture picture{};
+  std::weak_ptr<LiveSession> page{};
+  std::unique_ptr<LookBack> player{};
+
+  void take_news();
+};
+
 /// What all sessions share; in the server's thread alone.
 struct Hub {
   ServerOptions options;
   Feed& feed;
   Access access;
-  TileBook book{};
-  std::array<Frame, kSections> sections{};
-  std::array<std::uint64_t, kSections> versions{};  ///< 0: nothing yet
+  /// Does something later, in the server's thread; from any thread.
+  std::function<void(std::function<void()>)> post{};
+  Picture picture{};
   std::map<std::uint64_t, std::weak_ptr<LiveSession>> live{};
+  std::vector<std::shared_ptr<Past>> pasts{};  ///< those that end, too
   std::size_t connections = 0;
   std::uint64_t last_client = 0;
 
   /// Distributes what the coordinator put.
   void take_news();
+  /// Begins a look back for a page, at the time that its order says; unavailable, for people, where
+  /// there is none.
+  [[nodiscard]] Result<std::shared_ptr<Past>> look_back(const std::shared_ptr<LiveSession>& page,
+                                                        Role role, ClientOrder where);
+  /// Lets go of those that have ended.
+  void forget_pasts();
 };
 
 /// Counts a connection while it lives.
@@ -82,6 +109,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   /// Something may be new.
   void pump();
   void answer(std::uint32_t request_id, const std::string& why_not);
+  /// Everything that follows is live. `why`: where nobody asked for it.
+  void go_live(const std::string& why);
 
  private:
   using WebSocket = boost::beast::websocket::stream<boost::beast::tcp_stream>;
@@ -89,9 +118,14 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   void read();
   void take(const boost::beast::flat_buffer& buffer);
   void watch(const Watch& wanted);
+  void steer(ClientRequest request);
+  void order(ClientRequest request);
+  /// Whatever was told is void, but for alerts.
+  void begin_anew();
   void close(boost::beast::websocket::close_code code, const char* why);
   [[nodiscard]] bool may_speak();
   [[nodiscard]] Frame next();
+  [[nodiscard]] Frame newer(const Picture& picture, Section section);
 
   Hub& hub_;
   std::shared_ptr<Seat> seat_;
@@ -105,6 +139,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   std::deque<Frame> first_;  ///< greeting and answers
   std::array<std::uint64_t, kSections> seen_{};
   std::map<std::string, TileBook::Version> maps_{{"", 0}};
+  std::shared_ptr<Past> past_;  ///< while it looks back
   double may_send_;
   std::chrono::steady_clock::time_point counted_at_ = std::chrono::steady_clock::now();
 };

@@ -1,5 +1,6 @@
 #include "coordinator/dashboard/timeline.hpp"
 
+#include "coordinator/dashboard/readable.hpp"
 #include "idl/dashboard.pb.h"
 
 namespace lifeline::dashboard {
@@ -14,6 +15,13 @@ std::string timeline_frame(const Timeline& timeline, std::uint32_t beat) {
   told.set_is_paused(timeline.is_paused);
   told.set_is_seeking(timeline.is_seeking);
   told.set_beat(beat);
+  told.set_is_mission_live(timeline.is_mission_live);
+  return frame.SerializeAsString();
+}
+
+std::string live_frame(const std::string& why) {
+  proto::dashboard::ServerFrame frame;
+  frame.mutable_live()->set_why(readable(why));
   return frame.SerializeAsString();
 }
 

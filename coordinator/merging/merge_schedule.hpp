@@ -43,11 +43,11 @@ enum class Standing {
 };
 
 /// Decides which pair is matched next: Eq. 11 for both maps, same floor, and enough growth or
-/// correction since the pair's last match. Merges that may do harm come first; then pairs that would
-/// bring together what nothing joins yet, those that were never matched before the others; then
-/// pairs that are in one group by way of others; then merged ones, which need more growth the more
-/// often they were confirmed. Every fourth match goes to whoever has waited longest, so that nobody
-/// starves.
+/// correction since the pair's last match. Merges that may do harm come first; then pairs that
+/// would bring together what nothing joins yet, those that were never matched before the others;
+/// then pairs that are in one group by way of others; then merged ones, which need more growth the
+/// more often they were confirmed. Every fourth match goes to whoever has waited longest, so that
+/// nobody starves.
 class MergeSchedule {
  public:
   MergeSchedule(MergeScheduleConfig config, double cell_size_m)

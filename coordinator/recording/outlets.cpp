@@ -4,6 +4,7 @@
 
 #include "common/base/log.hpp"
 #include "common/dds/open_channel.hpp"
+#include "coordinator/recording/coordinator_tap.hpp"
 #include "idl/config.pb.h"
 
 namespace lifeline {
@@ -63,11 +64,17 @@ Result<void> Outlets::open(const proto::CoordinatorConfig& config,
   if (recording_ == nullptr && !shown) return {};
   const Duration map_interval = from_seconds(config.ros2().map_interval_s());
   view_ = Ros2View({map_interval, map_interval});
-  tap_.attach(channels);
+  tap_channels(channels, tap_);
   if (recording_ != nullptr) channels.recording = [this] { return recording_->status(); };
   const bool scans =
       (recording_ != nullptr && config.recording().scans()) || (shown && config.ros2().scans());
-  return tap_.listen(participant, scans);
+  if (!scans) return {};
+  // Helmets send them only while somebody listens.
+  Result<void> opened;
+  std::unique_ptr<wire::Inbox<wire::HelmetScan>> inbox;
+  dds::open_inbox(participant, inbox, opened);
+  tap_.listen(std::move(inbox));
+  return opened;
 }
 
 void Outlets::show(const std::vector<ros2::Message>& messages) {
@@ -77,16 +84,18 @@ void Outlets::show(const std::vector<ros2::Message>& messages) {
 
 void Outlets::step(const Coordinator& coordinator) {
   const std::vector<Heard> heard = tap_.take();
-  if (recording_ != nullptr) recording_->step(heard, coordinator);
+  const MissionState state = state_of(coordinator);
+  if (recording_ != nullptr) recording_->step(heard, state);
   if (ros2_ == nullptr && foxglove_ == nullptr) return;
-  show(view_.step(heard, coordinator, clock_.steady_now(), clock_.wall_now()));
+  show(view_.step(heard, state, clock_.steady_now(), clock_.wall_now()));
 }
 
 Result<void> Outlets::finish(const Coordinator& coordinator) {
   step(coordinator);
   // The map as it is at the end.
-  if (auto map = Ros2View::map_message(coordinator, clock_.wall_now())) show({*std::move(map)});
-  return recording_ == nullptr ? Result<void>{} : recording_->finish(coordinator);
+  if (auto map = Ros2View::map_message(state_of(coordinator), clock_.wall_now()))
+    show({*std::move(map)});
+  return recording_ == nullptr ? Result<void>{} : recording_->finish(state_of(coordinator));
 }
 
 }  // namespace lifeline

@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "common/recording/message_tap.hpp"
+#include "common/recording/mission_recording.hpp"
+#include "coordinator/coordinator.hpp"
 #include "coordinator/foxglove/foxglove_server.hpp"
-#include "coordinator/recording/mission_recording.hpp"
 #include "coordinator/recording/ros2_out.hpp"
 
 namespace lifeline::proto {
@@ -20,7 +22,7 @@ namespace lifeline {
 class Outlets {
  public:
   Outlets(sharing::Speaker speaker, const Clock& clock)
-      : speaker_(std::move(speaker)), clock_(clock), tap_(speaker_.mission_id) {}
+      : speaker_(std::move(speaker)), clock_(clock), tap_(speaker_) {}
   Outlets(const Outlets&) = delete;
   Outlets& operator=(const Outlets&) = delete;
   ~Outlets() = default;
@@ -34,6 +36,9 @@ class Outlets {
   void step(const Coordinator& coordinator);
   /// Closes the recording; waits for the disk.
   [[nodiscard]] Result<void> finish(const Coordinator& coordinator);
+
+  /// nullptr where nothing is recorded.
+  [[nodiscard]] MissionRecording* recording() const { return recording_.get(); }
 
  private:
   void show(const std::vector<ros2::Message>& messages);

@@ -4,11 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/bag/bag_reader.hpp"
 #include "common/base/log.hpp"
 #include "common/base/sha256.hpp"
 #include "common/dds/cdr_samples.hpp"
+#include "common/recording/topic_names.hpp"
 #include "common/ros2/cdr_reader.hpp"
-#include "coordinator/recording/topic_names.hpp"
 
 namespace lifeline {
 namespace {
@@ -29,8 +30,20 @@ nlohmann::json note_of(const bag::Message& message) {
 
 tl::unexpected<Error> not_ours(const std::string& target) {
   return fail(ErrorCode::bad_data,
-              "{}: is no recording of lifeline-coordinator: it does not begin with a message of {}",
-              target, kRecordingTopic);
+              "{}: is no recording of Lifeline: it does not begin with a message of {}", target,
+              kRecordingTopic);
+}
+
+/// The layer of the helmet that recorded; empty where a coordinator did.
+std::optional<LayerKey> helmet_of(const nlohmann::json& note, const std::string& recorder) {
+  const auto helmet = note.find("helmet");
+  const auto id = AgentId::parse(recorder);
+  if (helmet == note.end() || !helmet->is_object() || !id) return std::nullopt;
+  const auto map_id = helmet->find("map_id"), floor = helmet->find("floor");
+  if (map_id == helmet->end() || !map_id->is_number_integer() || floor == helmet->end() ||
+      !floor->is_number_integer())
+    return std::nullopt;
+  return LayerKey{*id, MapId{map_id->get<std::uint32_t>()}, Floor{floor->get<std::int16_t>()}};
 }
 
 Result<RecordingFacts> facts_of(const nlohmann::json& note, const std::string& target) {
@@ -48,6 +61,7 @@ Result<RecordingFacts> facts_of(const nlohmann::json& note, const std::string& t
                 number("format"));
   }
   const RecordingFacts facts{text("recorder"),
+                             helmet_of(note, text("recorder")),
                              text("mission_id"),
                              {number("cell_size_m"), number("truncation_m")},
                              std::nullopt};
@@ -91,16 +105,20 @@ Result<std::optional<Heard>> to_heard(const bag::Message& message) {
 Result<std::unique_ptr<Replay>> Replay::open(const std::string& target) {
   auto reader = bag::BagReader::open(target);
   if (!reader) return forward_error(reader);
-  std::unique_ptr<Replay> replay(new Replay(*std::move(reader)));
+  return open(std::make_unique<bag::BagReader>(*std::move(reader)));
+}
+
+Result<std::unique_ptr<Replay>> Replay::open(std::unique_ptr<bag::MessageSource> source) {
+  std::unique_ptr<Replay> replay(new Replay(std::move(source)));
   if (auto begun = replay->begin(); !begun) return forward_error(begun);
   return replay;
 }
 
 Result<void> Replay::begin() {
-  auto first = reader_.next();
+  auto first = source_->next();
   if (!first) return forward_error(first);
-  if (!*first || (*first)->topic.name != kRecordingTopic) return not_ours(reader_.target());
-  auto facts = facts_of(note_of(**first), reader_.target());
+  if (!*first || (*first)->topic.name != kRecordingTopic) return not_ours(source_->target());
+  auto facts = facts_of(note_of(**first), source_->target());
   if (!facts) return forward_error(facts);
   facts_ = *std::move(facts);
   first_ = clock_.wall = (*first)->stamp;
@@ -108,21 +126,27 @@ Result<void> Replay::begin() {
   CoordinatorSettings settings{
       {*AgentId::parse("replay"), facts_.mission_id, Incarnation{1}}, facts_.geometry, {}, {}};
   settings.only_listens = true;
+  settings.seen_by = facts_.helmet;
   coordinator_ =
       std::make_unique<Coordinator>(std::move(settings), channels_.make(), worker_, clock_);
-  auto next = reader_.next();
+  auto next = source_->next();
   if (!next) return forward_error(next);
   next_ = *std::move(next);
   return {};
 }
 
-Result<bag::BagReader::Span> Replay::span() const {
-  const auto span = reader_.span();
+Result<bag::MessageSource::Span> Replay::span() const {
+  const auto span = source_->span();
   if (!span) return forward_error(span);
-  return span->value_or(bag::BagReader::Span{first_, first_});
+  return span->value_or(bag::MessageSource::Span{first_, first_});
 }
 
 Result<bool> Replay::step() {
+  if (!next_) {
+    auto next = source_->next();
+    if (!next) return forward_error(next);
+    next_ = *std::move(next);
+  }
   if (!next_) {
     coordinator_->step();
     return false;
@@ -131,7 +155,7 @@ Result<bool> Replay::step() {
   const Timestamp until = next_->stamp + kAtOnce;
   while (next_ && next_->stamp < until) {
     feed(*next_);
-    auto next = reader_.next();
+    auto next = source_->next();
     if (!next) return forward_error(next);
     next_ = *std::move(next);
   }
@@ -157,7 +181,7 @@ void Replay::feed(const bag::Message& message) {
   const auto heard = to_heard(message);
   if (!heard) {
     if (refused_++ == 0)
-      spdlog::warn("{}: a message of {} is left out: {}", reader_.target(), message.topic.name,
+      spdlog::warn("{}: a message of {} is left out: {}", source_->target(), message.topic.name,
                    heard.error().text);
     return;
   }

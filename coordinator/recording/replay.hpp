@@ -5,7 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "common/bag/bag_reader.hpp"
+#include "common/bag/message_source.hpp"
+#include "common/recording/heard.hpp"
 #include "coordinator/coordinator.hpp"
 #include "coordinator/recording/replay_channels.hpp"
 
@@ -14,6 +15,8 @@ namespace lifeline {
 /// What a recording of ours says of itself.
 struct RecordingFacts {
   std::string recorder;
+  std::optional<LayerKey>
+      helmet;  ///< that recorded it, by the map that it drew; else a coordinator
   std::string mission_id;
   GridGeometry geometry;
   std::optional<std::string> common_map_sha256;  ///< at its end; empty where it was cut off
@@ -24,13 +27,18 @@ struct RecordingFacts {
 [[nodiscard]] Result<std::optional<Heard>> to_heard(const bag::Message& message);
 
 /// Plays a recording into a coordinator: the same code that led the mission, which follows the
-/// directives of then. Its clock is that of the recording. One owner, not thread-safe.
+/// directives of then, or such a coordinator beside the helmet that recorded. Its clock is that of
+/// the recording. One owner, not thread-safe.
 class Replay {
  public:
   /// bad_data where it is a recording, but none of ours; else as bag::BagReader::open().
   [[nodiscard]] static Result<std::unique_ptr<Replay>> open(const std::string& target);
+  /// The same of what comes from elsewhere.
+  [[nodiscard]] static Result<std::unique_ptr<Replay>> open(
+      std::unique_ptr<bag::MessageSource> source);
 
-  /// Plays on, up to and with the next time at which something was recorded. False at the end.
+  /// Plays on, up to and with the next time at which something was recorded. False at the end; of
+  /// a mission that goes on there may be more at the next call.
   [[nodiscard]] Result<bool> step();
 
   /// Hears each sample before the coordinator does.
@@ -40,8 +48,8 @@ class Replay {
   [[nodiscard]] const Coordinator& coordinator() const { return *coordinator_; }
   [[nodiscard]] Coordinator& coordinator() { return *coordinator_; }
   [[nodiscard]] const RecordingFacts& facts() const { return facts_; }
-  /// When it began and ended. Errors as of bag::BagReader::span().
-  [[nodiscard]] Result<bag::BagReader::Span> span() const;
+  /// When it began and ended. Errors as of its source's span().
+  [[nodiscard]] Result<bag::MessageSource::Span> span() const;
   /// How far into the recording.
   [[nodiscard]] Duration elapsed() const { return clock_.wall - first_; }
   [[nodiscard]] Timestamp first() const { return first_; }
@@ -61,13 +69,13 @@ class Replay {
     Timestamp wall{};
   };
 
-  explicit Replay(bag::BagReader reader) : reader_(std::move(reader)) {}
+  explicit Replay(std::unique_ptr<bag::MessageSource> source) : source_(std::move(source)) {}
   [[nodiscard]] Result<void> begin();
   void take_note(const bag::Message& message);
   void feed(const bag::Message& message);
   void advance(Timestamp to);
 
-  bag::BagReader reader_;
+  std::unique_ptr<bag::MessageSource> source_;
   RecordingFacts facts_;
   RecordedClock clock_;
   Timestamp first_{};

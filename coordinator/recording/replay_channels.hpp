@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/recording/heard.hpp"
 #include "coordinator/coordinator.hpp"
-#include "coordinator/recording/message_tap.hpp"
 
 namespace lifeline {
 

@@ -20,6 +20,7 @@
 #include "coordinator/dashboard/server.hpp"
 #include "idl/dashboard.pb.h"
 #include "tests/bench/command_line.hpp"
+#include "tests/bench/dashboard/look_back_figures.hpp"
 #include "tests/bench/report.hpp"
 
 namespace lifeline::bench {
@@ -33,6 +34,14 @@ constexpr int kTilesPerSide = 71;  // 5,041 tiles
 constexpr int kHelmets = 50;
 constexpr int kChangesPerTick = 25;  // each helmet sees half a tile anew, ten times a second
 constexpr Duration kTick = std::chrono::milliseconds(100);
+
+/// What measure.mjs does with the map, and what that is.
+constexpr std::array<std::pair<const char*, const char*>, 5> kMotions{
+    {{"rest", "whole map"},
+     {"far_pan", "whole map, moved"},
+     {"pan", "closer, moved"},
+     {"turn", "closer, turned"},
+     {"zoom", "closer, zoomed"}}};
 
 struct Options {
   std::optional<std::filesystem::path> out;
@@ -191,21 +200,31 @@ int run(const Options& options) {
   const auto page = measure(fmt::format("http://{}/", (*server)->listen().text()), options.seconds);
   const double wall_s = to_seconds(std::chrono::steady_clock::now() - began);
   const double served_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - process_s - (feeder.spent_s() - fed_s);
-  const auto figure = [&](const char* name) {
+  const auto figure = [&](const std::string& name) {
     return page.is_object() ? page.value(name, std::nan("")) : std::nan("");
   };
   using Side = Bar::Side;
-  return finish(
-      {"dashboard",
-       describe_machine(),
-       {{"first tiles drawn after opening", figure("first_tiles_s"), "s", Bar{Side::at_most, 2.0}},
-        {"all 5,041 tiles drawn", figure("whole_map_s"), "s"},
-        {"frames", figure("frames_per_s"), "1/s", Bar{Side::at_least, 30.0}},
-        {"frames while the map is moved and turned", figure("moved_per_s"), "1/s"},
-        {"page (heap, cells, painted map)", figure("page_mb"), "MB", Bar{Side::at_most, 300.0}},
-        {"server", 100.0 * served_s / wall_s, "% of a core", Bar{Side::at_most, 20.0}},
-        {"helmets shown", figure("helmets"), "", Bar{Side::at_least, kHelmets}}}},
-      options.out);
+  std::vector<ReportRow> rows{
+      {"first tiles drawn after opening", figure("first_tiles_s"), "s", Bar{Side::at_most, 2.0}},
+      {"all 5,041 tiles drawn", figure("whole_map_s"), "s"}};
+  for (const auto& [motion, name] : kMotions) {
+    const std::string key = motion;
+    rows.push_back({fmt::format("frames, {}", name), figure(key + "_per_s"), "1/s",
+                    Bar{Side::at_least, 30.0}});
+    rows.push_back({fmt::format("a frame, {}: median", name), figure(key + "_median_ms"), "ms"});
+    rows.push_back({fmt::format("a frame, {}: p99", name), figure(key + "_p99_ms"), "ms"});
+  }
+  rows.push_back(
+      {"page (heap, cells, painted map)", figure("page_mb"), "MB", Bar{Side::at_most, 300.0}});
+  rows.push_back({"server", 100.0 * served_s / wall_s, "% of a core", Bar{Side::at_most, 20.0}});
+  const LookBackFigures back = look_back_figures();
+  rows.push_back({"look back: over 10 min of 8 helmets", back.way_s, "s"});
+  rows.push_back({"look back: at rest", 100.0 * back.rest_share, "% of a core"});
+  rows.push_back(
+      {"look back: played", 100.0 * back.play_share, "% of a core", Bar{Side::at_most, 20.0}});
+  rows.push_back({"look back: memory", back.memory_mb, "MB"});
+  rows.push_back({"helmets shown", figure("helmets"), "", Bar{Side::at_least, kHelmets}});
+  return finish({"dashboard", describe_machine(), std::move(rows)}, options.out);
 }
 
 }  // namespace

@@ -13,25 +13,31 @@ try {
   const firstTiles = Date.now();
   await page.waitForFunction((wanted) => window.lifeline.tiles() >= wanted && window.lifeline.isShown(), Number(tiles), { polling: 20, timeout: 120_000 });
   const whole = Date.now();
-  const begin = await page.evaluate(() => ({ frames: window.lifeline.frames(), at: performance.now() }));
-  await page.waitForTimeout(1000 * Number(seconds));
-  const end = await page.evaluate(() => ({ frames: window.lifeline.frames(), at: performance.now() }));
-  const moved = await page.evaluate(async (ms) => {
-    const { view, frames } = window.lifeline;
-    view.camera.zoom(3);
-    const begin = { frames: frames(), at: performance.now() };
-    await new Promise((done) => {
-      const move = () => {
-        const at = performance.now() - begin.at;
-        view.camera.pan(6 * Math.cos(at / 500), 6 * Math.sin(at / 500));
-        view.camera.turn(0.004);
-        if (at > ms) done();
-        else requestAnimationFrame(move);
-      };
-      move();
-    });
-    return (1000 * (frames() - begin.frames)) / (performance.now() - begin.at);
-  }, 1000 * Number(seconds));
+  // How long each frame takes while the map is left alone, or moved in every one of them.
+  const drive = (motion) => page.evaluate(async ([motion, ms]) => {
+    const { camera } = window.lifeline.view;
+    const moves = {
+      rest: () => {},
+      pan: (at) => camera.pan(6 * Math.cos(at / 500), 6 * Math.sin(at / 500)),
+      turn: () => camera.turn(0.004),
+      zoom: (at) => camera.zoom(1 + 0.01 * Math.cos(at / 500)),
+    };
+    const times = [];
+    const begin = performance.now();
+    for (let last = begin; last - begin < ms; ) {
+      await new Promise(requestAnimationFrame);
+      const now = performance.now();
+      times.push(now - last);
+      last = now;
+      moves[motion](now - begin);
+    }
+    times.sort((a, b) => a - b);
+    const sum = times.reduce((a, b) => a + b, 0);
+    return { per_s: (1000 * times.length) / sum, median_ms: times[times.length >> 1], p99_ms: times[Math.floor(0.99 * times.length)] };
+  }, [motion, 1000 * Number(seconds)]);
+  const driven = { rest: await drive("rest"), far_pan: await drive("pan") };
+  await page.evaluate(() => window.lifeline.view.camera.zoom(3));
+  for (const motion of ["pan", "turn", "zoom"]) driven[motion] = await drive(motion);
   const session = await page.context().newCDPSession(page);
   await session.send("HeapProfiler.collectGarbage");
   const heap = await page.evaluate(() => performance.memory.usedJSHeapSize);
@@ -40,8 +46,7 @@ try {
   console.log(JSON.stringify({
     first_tiles_s: (firstTiles - opened) / 1000,
     whole_map_s: (whole - opened) / 1000,
-    frames_per_s: (1000 * (end.frames - begin.frames)) / (end.at - begin.at),
-    moved_per_s: moved,
+    ...Object.fromEntries(Object.entries(driven).flatMap(([motion, times]) => Object.entries(times).map(([name, value]) => [`${motion}_${name}`, value]))),
     page_mb: (heap + painted + cells) / 1e6,
     helmets: await page.evaluate(() => window.lifeline.state.helmets().length),
   }));

@@ -83,6 +83,7 @@ Result<Cost> measure(hud::Size size, double seconds) {
       facts.mates.push_back({fmt::format("ff{}", i), Pose2{10.0 * i, 30.0, 0.1 * i}, 90, now});
     facts.finds = {{{20.0, 33.0}, wire::DetectionKind::victim, true},
                    {{50.0, 20.0}, wire::DetectionKind::victim, false}};
+    facts.search = hud::SearchFacts{{60.0, 33.0}, 40.0};
     (*hud)->put(std::move(facts));
     // A walk changes a few tiles each time.
     sharing::MapTiles changed;

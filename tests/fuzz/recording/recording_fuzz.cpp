@@ -7,8 +7,8 @@
 #include <string>
 
 #include "common/dds/cdr_samples.hpp"
+#include "common/recording/topic_names.hpp"
 #include "coordinator/recording/replay.hpp"
-#include "coordinator/recording/topic_names.hpp"
 
 namespace {
 

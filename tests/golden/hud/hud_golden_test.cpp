@@ -88,6 +88,7 @@ const std::map<std::string, Spoil> kSpoils{
     {"a find", [](hud::HudPicture& p) { return !p.finds.empty() && (p.finds.pop_back(), true); }},
     {"a band", [](hud::HudPicture& p) { return !p.bands.empty() && (p.bands.pop_back(), true); }},
     {"the way out", [](hud::HudPicture& p) { return p.way_out && (p.way_out.reset(), true); }},
+    {"where to search", [](hud::HudPicture& p) { return p.search && (p.search.reset(), true); }},
     {"a bar of trust",
      [](hud::HudPicture& p) { return p.trust_bars > 0 && (--p.trust_bars, true); }},
     {"a bar of the link",

@@ -178,6 +178,21 @@ Situation position_lost() {
   return scene.end("position_lost");
 }
 
+Situation search_next() {
+  Scene scene;
+  scene.share();
+  scene.add_mate("bravo", {17.0, 7.8, 2.0});
+  scene.facts().search = hud::SearchFacts{{16.0, 9.6}, 5.2};
+  return scene.end("search_next");
+}
+
+Situation search_beyond() {
+  Scene scene;
+  scene.facts().search = hud::SearchFacts{{19.0, -8.0}, 24.0};
+  scene.facts().finds = {{{14.5, 4.0}, wire::DetectionKind::victim, true}};
+  return scene.end("search_beyond");
+}
+
 Situation mayday() {
   Scene scene;
   scene.share();
@@ -226,13 +241,10 @@ Situation own_mayday_and_order() {
 }  // namespace
 
 std::vector<Situation> hud_situations() {
-  return {own_map(),         shared_with_mates(),
-          mates_at_edges(),  stale_mate(),
-          heading_unknown(), victims(),
-          way_out_free(),    way_out_own_trail(),
-          position_lost(),   mayday(),
-          evacuate(),        roll_call(),
-          hold_bar(),        own_mayday_and_order()};
+  return {own_map(),         shared_with_mates(), mates_at_edges(), stale_mate(),
+          heading_unknown(), victims(),           way_out_free(),   way_out_own_trail(),
+          search_next(),     search_beyond(),     position_lost(),  mayday(),
+          evacuate(),        roll_call(),         hold_bar(),       own_mayday_and_order()};
 }
 
 }  // namespace lifeline::test

@@ -3,7 +3,9 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { fitsEveryScreen, noThemeIsHardToRead } from "./looks.mjs";
+import { aHelmetCallsForHelpAndAnswers, aMaydayComesToTheFront, aRollCallTakesTwoPresses } from "./alarms.mjs";
+import { whoLooksBackMissesNothing } from "./look_back.mjs";
+import { aMovedMapIsThePaintedOne, fitsEveryScreen, noThemeIsHardToRead } from "./looks.mjs";
 import { whatIsUnsearchedIsShown } from "./search.mjs";
 import { freePort, Mission, until } from "./mission.mjs";
 
@@ -62,54 +64,8 @@ async function theMapAppears(page) {
   await holdsTheMap(page);
   const walls = await look(page, () => window.lifeline.view.map.knownCells());
   assert.ok(walls > 20_000, `${walls} known cells`);
-}
-
-async function aMaydayComesToTheFront(page, voice) {
-  const said = Date.now();
-  voice.say("mayday no air");
-  const band = page.locator("#alarms .band.kind-0");
-  await band.waitFor({ timeout: 20_000 });
-  console.log(`          mayday on the page after ${Date.now() - said} ms`);
-  assert.match(await band.innerText(), /MAYDAY: zulu[^]*no air[^]*waits for you/);
-  const box = await band.boundingBox();
-  assert.ok(box.y < 5, "over everything else");
-  assert.ok(!voice.output.includes("answered by coordinator"), "nobody has acknowledged it yet");
-  await page.locator("#map").focus();
-  await page.keyboard.press("a");
-  await voice.prints("alert zulu answered by coordinator", 20);
-  await until("the band goes", async () => (await band.count()) === 0);
-  assert.match(await page.locator("#panel-log").textContent(), /acknowledged/);
-}
-
-async function aRollCallTakesTwoPresses(page) {
-  await page.locator("#order-2").click();
-  await page.getByRole("button", { name: /Press again/ }).click();
-  const band = page.locator("#alarms .band.kind-2");
-  await band.waitFor();
-  assert.match(await band.innerText(), /0 of \d answered[^]*missing: [^]*alpha/);
-  await band.getByRole("button", { name: "End it" }).click();
-  await until("it is over", async () => (await band.count()) === 0);
-}
-
-/// A real helmet, by its one button.
-async function aHelmetCallsForHelpAndAnswers(page, button) {
-  button.write("1");
-  const mayday = page.locator("#alarms .band.kind-0", { hasText: "MAYDAY: bravo" });
-  await mayday.waitFor({ timeout: 20_000 });
-  button.write("0");
-  await page.locator("#order-2").click();
-  await page.getByRole("button", { name: /Press again/ }).click();
-  const call = page.locator("#alarms .band.kind-2");
-  // Each press answers what waits for an answer longest.
-  await until("bravo is not missing", async () => {
-    button.write("10");
-    await page.waitForTimeout(300);
-    return /missing: (?![^]*bravo)/.test(await call.innerText());
-  });
-  await call.getByRole("button", { name: "End it" }).click();
-  button.write("1");
-  await until("all is well again", async () => (await mayday.count()) === 0);
-  button.write("0");
+  const labels = await look(page, () => Object.fromEntries(window.lifeline.state.helmets().map(({ agent }) => [agent.agentId, agent.label])));
+  assert.deepEqual([labels.alpha, labels.bravo], ["AL", "BR"], "as on the helmets' own displays");
 }
 
 async function aFindIsConfirmed(page, voice) {
@@ -213,10 +169,12 @@ async function whoOnlyLooksHasNoButtons() {
 async function aRestartIsSurvived(page, coordinator) {
   await coordinator.stop("SIGKILL");
   await until("the page says so", async () => (await page.locator("#connection").innerText()).includes("NO CONNECTION"));
-  const again = mission.coordinator(port);
+  const again = mission.coordinator(port, "off");
   await until("it is live again", async () => (await page.locator("#connection").innerText()).includes("LIVE"));
   await until("and knows the helmets", () => look(page, () => window.lifeline.state.helmets().filter(({ agent }) => agent.holdsSameMap).length >= 2));
   const hash = await holdsTheMap(page);
+  await page.locator("#look-back").click();
+  await until("without a recording it is said how to make one", async () => /--record FOLDER/.test(await page.locator("#map-note").innerText()));
   assert.equal(await again.stop(), 0, again.output);
   const report = JSON.parse(readFileSync(join(mission.folder, "report/coordinator.json"), "utf8"));
   assert.equal(report.common_map_sha256, hash, "cell for cell what the coordinator reports");
@@ -243,7 +201,9 @@ try {
   await step("a find is confirmed, and that is taken back", () => aFindIsConfirmed(page, voice));
   await step("a merge is withdrawn, the map follows, and it is accepted again", () => aMergeIsWithdrawn(page));
   await step("keys move, measure and find the way out", () => keysMoveTheMap(page));
+  await step("a moved map is the painted one, to the pixel", () => aMovedMapIsThePaintedOne(page));
   await step("what is unsearched is shown, and who searched what", () => whatIsUnsearchedIsShown(page, artefacts));
+  await whoLooksBackMissesNothing(step, { page, openPage, voice, holdsTheMap, artefacts });
   await step("who only looks has no buttons", () => whoOnlyLooksHasNoButtons());
   await step("script in names and texts stays text", () => namesStayNames(page, voice));
   await step("the page fits 360, 1280 and 3840 px", () => fitsEveryScreen(openPage, artefacts));

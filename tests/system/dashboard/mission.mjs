@@ -70,8 +70,8 @@ export class Mission {
   joined(...args) {
     return [...args, "--domain", this.domain, "--mission", this.name, "--qos", this.qos];
   }
-  coordinator(port) {
-    return this.start("lifeline-coordinator", this.joined("run", "--dashboard", `127.0.0.1:${port}`, "--state", join(this.folder, "state"), "--report", join(this.folder, "report")));
+  coordinator(port, records = join(this.folder, "records")) {
+    return this.start("lifeline-coordinator", this.joined("run", "--dashboard", `127.0.0.1:${port}`, "--record", records, "--state", join(this.folder, "state"), "--report", join(this.folder, "report")));
   }
   helmet(id, source, ...more) {
     return this.start("lifeline-agent", this.joined("run", "--id", id, "--source", source, ...more));

@@ -68,8 +68,45 @@ class Manual(unittest.TestCase):
                 self.assertTrue(os.access(f"{prefix}/bin/{program}", os.X_OK))
                 page = pathlib.Path(prefix, "share/man/man1", program + ".1").read_text()
                 self.assertIn(f'.TH "{program}" "1"', page)
-                script = f"{prefix}/share/bash-completion/completions/{program}"
-                run("bash", "-n", script)
+                share = f"{prefix}/share"
+                run("bash", "-n", f"{share}/bash-completion/completions/{program}")
+                run("zsh", "-f", "-n", f"{share}/zsh/site-functions/_{program}")
+                run("fish", "--no-config", "--no-execute", f"{share}/fish/vendor_completions.d/{program}.fish")
+
+
+def each_command():
+    for program in PROGRAMS:
+        for command in commands_of(program) or [None]:
+            yield program, command, [command] if command else []
+
+
+class Terminal:
+    """A shell that a person sits at."""
+
+    def __init__(self, test, *command):
+        self.test, self.shown = test, ""
+        self.child, self.terminal = pty.fork()
+        if self.child == 0:
+            os.environ.update(PS1="ready> ", TERM="dumb", INPUTRC="/dev/null", PATH=f"{BUILD}/bin:{os.environ['PATH']}")
+            os.execvp(command[0], command)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        os.close(self.terminal)
+        os.kill(self.child, 9)
+        os.waitpid(self.child, 0)
+
+    def types(self, text):
+        os.write(self.terminal, text)
+
+    def wait_for(self, text):
+        end = time.monotonic() + 120
+        while text not in self.shown:
+            self.test.assertLess(time.monotonic(), end, self.shown)
+            if select.select([self.terminal], [], [], 0.1)[0]:
+                self.shown += os.read(self.terminal, 4096).decode(errors="replace")
 
 
 class Completion(unittest.TestCase):
@@ -103,34 +140,83 @@ class Completion(unittest.TestCase):
             self.assertEqual(self.complete("lifeline-coordinator", "match", "st", folder=folder), {"state"})
 
     def test_a_person_presses_tab(self):
-        child, terminal = pty.fork()
-        if child == 0:
-            os.environ.update(PS1="ready> ", TERM="dumb", INPUTRC="/dev/null", PATH=f"{BUILD}/bin:{os.environ['PATH']}")
-            os.execvp("bash", ["bash", "--norc", "--noprofile", "-i"])
-        shown = ""
-
-        def wait_for(text):
-            nonlocal shown
-            end = time.monotonic() + 120
-            while text not in shown:
-                self.assertLess(time.monotonic(), end, shown)
-                if select.select([terminal], [], [], 0.1)[0]:
-                    shown += os.read(terminal, 4096).decode(errors="replace")
-
-        try:
-            wait_for("ready> ")
-            os.write(terminal, b"source <(lifeline-coordinator completion bash); echo is\"\"sourced\n")
-            wait_for("issourced")
-            os.write(terminal, b"lifeline-coordinator doc\t--dash\toff --js\t")
-            wait_for("lifeline-coordinator doctor --dashboard off --json")
-        finally:
-            os.close(terminal)
-            os.kill(child, 9)
-            os.waitpid(child, 0)
+        with Terminal(self, "bash", "--norc", "--noprofile", "-i") as terminal:
+            terminal.wait_for("ready> ")
+            terminal.types(b"source <(lifeline-coordinator completion bash); echo is\"\"sourced\n")
+            terminal.wait_for("issourced")
+            terminal.types(b"lifeline-coordinator doc\t--dash\toff --js\t")
+            terminal.wait_for("lifeline-coordinator doctor --dashboard off --json")
 
     def test_another_shell_is_refused_in_one_line(self):
         done = subprocess.run([BUILD / "bin/lifeline-agent", "completion", "tcsh"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+
+
+class ZshCompletion(unittest.TestCase):
+    # What the function asks zsh's own completion for, one a line.
+    STUBS = r"""
+        compdef() { :; }
+        _arguments() { print -rl -- "$@"; }
+        _describe() { print -rl -- "${(@P)2}"; }
+    """
+
+    def asked_for(self, program, *words):
+        quoted = " ".join(f"'{word}'" for word in (program, *words))
+        function = "_" + program.replace("-", "_")
+        script = f"{self.STUBS}\nsource <('{BUILD}/bin/{program}' completion zsh); words=({quoted}); CURRENT={len(words) + 1}; {function}"
+        return run("zsh", "-f", "-c", script).splitlines()
+
+    def test_every_command_and_option_is_completed(self):
+        for program in PROGRAMS:
+            commands = commands_of(program)
+            if commands:
+                asked = self.asked_for(program, "")
+                self.assertEqual({line.partition(":")[0] for line in asked if not line.startswith("(")}, set(commands))
+        for program, command, given in each_command():
+            with self.subTest(program=program, command=command):
+                asked = self.asked_for(program, *given, "--")
+                named = {option for line in asked for option in re.findall(r"^(?:\*|\([^)]*\))(--[\w-]+)=?\[", line)}
+                self.assertEqual(named - {"--help"}, options_of(program, *given))
+
+    def test_a_person_presses_tab(self):
+        with tempfile.TemporaryDirectory() as folder, Terminal(self, "zsh", "-f", "-i") as terminal:
+            pathlib.Path(folder, "unique-folder").mkdir()
+            pathlib.Path(folder, "unique-file").touch()
+            terminal.types(f"cd '{folder}'; autoload -Uz compinit; compinit -D -u; ".encode())
+            terminal.types(b"source <(lifeline-coordinator completion zsh); source <(lifeline-agent completion zsh); echo is\"\"sourced\n")
+            terminal.wait_for("issourced")
+            # What a terminal shows while it is typed is redrawn: what the command is given counts.
+            terminal.types(b"lifeline-agent lifeline-coordinator() { print -r -- \"given: $*\" }\n")
+            terminal.types(b"lifeline-coordinator doc\t--dash\toff --js\t\n")
+            terminal.wait_for("given: doctor --dashboard=off --json")
+            terminal.types(b"lifeline-agent run --mat\tadv\t--state=uniq\t\n")
+            terminal.wait_for("given: run --matcher=advanced --state=unique-folder")
+
+
+class FishCompletion(unittest.TestCase):
+    def complete(self, program, *words, folder=None):
+        line = " ".join((program, *words))
+        script = f"'{BUILD}/bin/{program}' completion fish | source; complete -C '{line}'"
+        done = run("fish", "--no-config", "-c", script, cwd=folder)
+        return {suggested.partition("\t")[0] for suggested in done.splitlines()}
+
+    def test_every_command_and_option_is_completed(self):
+        for program in PROGRAMS:
+            if commands := commands_of(program):
+                self.assertEqual(self.complete(program, ""), set(commands))
+        for program, command, given in each_command():
+            with self.subTest(program=program, command=command):
+                self.assertEqual(self.complete(program, *given, "--") - {"--help"}, options_of(program, *given))
+
+    def test_values_are_completed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "helmet.yaml").touch()
+            pathlib.Path(folder, "state").mkdir()
+            self.assertEqual(self.complete("lifeline-agent", "run", "--matcher", ""), {"conventional", "advanced", "direct"})
+            self.assertEqual(self.complete("lifeline-agent", "run", "--state", "", folder=folder), {"state/"})
+            self.assertEqual(self.complete("lifeline-agent", "run", "--config", "helm", folder=folder), {"helmet.yaml"})
+            self.assertEqual(self.complete("lifeline-agent", "run", "--id", "", folder=folder), set())
+            self.assertEqual(self.complete("lifeline-coordinator", "match", "st", folder=folder), {"state/"})
 
 
 if __name__ == "__main__":

@@ -145,5 +145,53 @@ TEST_F(BagWriterTest, AFullDiskTakesBackWhatWasNotCommittedAndThereIsRoomAgainLa
   EXPECT_EQ(messages.back().cdr, Bytes{4});
 }
 
+TEST_F(BagWriterTest, WhatIsCommittedIsReadBackWhileMoreIsWritten) {
+  BagWriter writer = create();
+  const auto is_tf = [](const Topic& topic) { return topic.name == kTf.name; };
+  std::uint64_t after = 0;
+  ASSERT_TRUE(writer.append(kTf, Durability::volatile_, at(10), Bytes{1}));
+  ASSERT_TRUE(writer.append(kMap, Durability::transient_local, at(10), Bytes{9}));
+  ASSERT_TRUE(writer.append(kTf, Durability::volatile_, at(20), Bytes{2, 3}));
+  EXPECT_TRUE(writer.read(after, 10, is_tf).value().empty()) << "it may still be taken back";
+  EXPECT_FALSE(writer.span());
+  ASSERT_TRUE(writer.commit());
+  ASSERT_TRUE(writer.append(kTf, Durability::volatile_, at(30), Bytes{4}));
+  const auto first = writer.read(after, 2, is_tf).value();
+  ASSERT_EQ(first.size(), 1U) << "it looks at no more than two";
+  EXPECT_EQ(first[0].cdr, Bytes{1});
+  EXPECT_EQ(first[0].stamp, at(10));
+  const auto second = writer.read(after, 2, is_tf).value();
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_EQ(second[0].cdr, (Bytes{2, 3}));
+  EXPECT_EQ(second[0].topic.type, kTf.type);
+  EXPECT_EQ(writer.span()->last, at(20));
+  ASSERT_TRUE(writer.commit());
+  EXPECT_EQ(writer.read(after, 10, is_tf).value().at(0).cdr, Bytes{4});
+  EXPECT_TRUE(writer.read(after, 10, is_tf).value().empty());
+  ASSERT_TRUE(writer.close());
+  EXPECT_EQ(writer.read(after, 10, is_tf).error().code, ErrorCode::unavailable);
+  EXPECT_EQ(read().size(), 4U) << "reading left no log open";
+}
+
+TEST_F(BagWriterTest, WhatAFullDiskTookBackIsNeverRead) {
+  BagWriter writer = create();
+  const auto all = [](const Topic&) { return true; };
+  std::uint64_t after = 0;
+  {
+    const test::FullDisk full(100'000);
+    bool failed = false;
+    for (int i = 1; i < 100 && !failed; ++i)
+      failed = !writer.append(kMap, Durability::transient_local, at(i), Bytes(10'000, 1));
+    failed = failed || !writer.commit();
+    ASSERT_TRUE(failed);
+    EXPECT_TRUE(writer.read(after, 1000, all).value().empty());
+  }
+  ASSERT_TRUE(writer.append(kTf, Durability::volatile_, at(200), Bytes{2}));
+  ASSERT_TRUE(writer.commit());
+  const auto left = writer.read(after, 1000, all).value();
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_EQ(left[0].topic.name, kTf.name);
+}
+
 }  // namespace
 }  // namespace lifeline::bag

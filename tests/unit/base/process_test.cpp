@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -49,6 +50,23 @@ TEST(Log, TakesALevelByNameAndInfoForAnyOther) {
   EXPECT_EQ(spdlog::default_logger()->level(), spdlog::level::info);
   EXPECT_EQ(spdlog::default_logger()->name(), "test");
   spdlog::set_default_logger(before);
+}
+
+TEST(Log, LeavesOutWhatAQuietThreadSaysAgainButNoErrors) {
+  const auto before = spdlog::default_logger();
+  ::testing::internal::CaptureStderr();
+  set_up_log("test", "info");
+  std::jthread([] {
+    const QuietLog quiet;
+    spdlog::warn("played again");
+    spdlog::error("went wrong");
+  }).join();
+  spdlog::info("said by others");
+  spdlog::set_default_logger(before);
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_THAT(said, ::testing::Not(HasSubstr("played again")));
+  EXPECT_THAT(said, HasSubstr("went wrong"));
+  EXPECT_THAT(said, HasSubstr("said by others"));
 }
 
 int parse(std::vector<const char*> words) {

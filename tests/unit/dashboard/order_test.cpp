@@ -50,6 +50,8 @@ TEST(ClientFrames, GiveWhatThePageAsked) {
   EXPECT_TRUE(wish.is_paused);
   EXPECT_EQ(wish.speed, 4.0);
   EXPECT_EQ(wish.to, from_seconds(12.5));
+  const auto live = decode([](pb::ClientFrame& frame) { frame.mutable_go_live(); });
+  EXPECT_TRUE(std::holds_alternative<GoLive>(live->content));
 
   const auto alert = decode([](pb::ClientFrame& frame) {
     frame.mutable_raise_alert()->set_kind(pb::ROLL_CALL);

@@ -41,6 +41,32 @@ TEST(AtomicFile, AFailedWriteLeavesNothingBehind) {
   EXPECT_EQ(folder.files(), 1U);
 }
 
+TEST(AtomicFile, IsThereOnceItIsCommitted) {
+  const support::TemporaryFolder folder;
+  const auto name = folder.path() / "a.txt";
+  auto file = AtomicFile::create(name);
+  ASSERT_TRUE(file);
+  ASSERT_TRUE(file->append("one "));
+  ASSERT_TRUE(file->append("two"));
+  EXPECT_FALSE(std::filesystem::exists(name));
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(read_file(name, 100).value(), "one two");
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(AtomicFile, WhatIsNeverCommittedLeavesTheOldContent) {
+  const support::TemporaryFolder folder;
+  const auto name = folder.write("a.txt", "old");
+  {
+    auto file = AtomicFile::create(name);
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(file->append("new"));
+    const AtomicFile moved = *std::move(file);
+  }
+  EXPECT_EQ(read_file(name, 100).value(), "old");
+  EXPECT_EQ(folder.files(), 1U);
+}
+
 TEST(ReadFile, AFileLargerThanAllowedIsRefused) {
   const support::TemporaryFolder folder;
   const auto file = folder.write("a.txt", "0123456789");

@@ -93,7 +93,7 @@ TEST_F(LoadConfig, ReportsEveryFaultAtOnceWithItsPlace) {
           "a.yaml:7:7: slam must hold keys with values; give: matcher, max_range_m, "
           "min_model_points, max_mean_error_m, gicp_max_iterations",
           "a.yaml:8:1: unknown key colour; known here: mission, grid, slam, sharing, floor, "
-          "sensing, storage",
+          "sensing, storage, recording",
           "a.yaml:10:1: floor stands here again, first on line 9; keep one"));
   EXPECT_EQ(code_, ErrorCode::wrong_use);
 }

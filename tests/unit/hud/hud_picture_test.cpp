@@ -80,7 +80,7 @@ TEST_F(HudPictureTest, MatesAreNamedDimmedWhenOldAndAskedForWhenTheyKnowNoPlace)
   facts_.mates.push_back({"unplaced", std::nullopt, 90, now_});
   const auto mates = compose().mates;
   ASSERT_EQ(mates.size(), 3U) << "who lies on no common map has no place";
-  EXPECT_EQ(mates[0].label, "F12");
+  EXPECT_EQ(mates[0].mark.label, "F12");
   EXPECT_DOUBLE_EQ(mates[0].distance_m.value(), 5.0);
   EXPECT_FALSE(mates[0].stale);
   EXPECT_TRUE(mates[1].stale);
@@ -169,6 +169,24 @@ TEST_F(HudPictureTest, WhereThePositionIsLostNoWayIsShown) {
   EXPECT_EQ(picture.bands[0].detail, "for 12 s");
 }
 
+TEST_F(HudPictureTest, WhereToSearchIsShownWhileNothingMoreUrgentIs) {
+  facts_.search = SearchFacts{{3.0, 4.0}, 6.5};
+  ASSERT_TRUE(compose().search);
+  EXPECT_EQ(compose().search->p_map_m, Eigen::Vector2d(3.0, 4.0));
+  EXPECT_EQ(compose().search->distance_m, 6.5);
+  facts_.alerts = {test::open_alert(AlertKind::roll_call, "vehicle")};
+  EXPECT_TRUE(compose().search);
+  for (const AlertKind kind : {AlertKind::mayday, AlertKind::evacuate}) {
+    facts_.alerts = {test::open_alert(kind, "vehicle", "bravo")};
+    facts_.alerts[0].answered = true;
+    EXPECT_FALSE(compose().search) << "answered, but not over";
+  }
+  facts_.alerts.clear();
+  facts_.state.state = wire::AgentState::lost;
+  facts_.state.trust_percent = 0;
+  EXPECT_FALSE(compose().search) << "from where?";
+}
+
 TEST_F(HudPictureTest, TheHeadingIsUnknownWhereNeitherSensorNorMatchTellsIt) {
   facts_.state.attitude = wire::SensorHealth::silent;
   EXPECT_TRUE(compose().heading_known) << "a good match tells it";
@@ -184,18 +202,6 @@ TEST_F(HudPictureTest, TheArrowPointsAlongTheWayAndNotAtItsEnd) {
   EXPECT_NEAR(way.bearing_rad, -std::numbers::pi / 2.0, 1e-9) << "to the right";
   EXPECT_TRUE(way.by_own_trail);
   EXPECT_FALSE(way.arrived);
-}
-
-TEST(HudLabel, IsShortAndTellsHelmetsApart) {
-  EXPECT_EQ(label_of("alpha"), "AL");
-  EXPECT_EQ(label_of("ff03"), "F3");
-  EXPECT_EQ(label_of("engine1-2"), "E2");
-  EXPECT_EQ(label_of("helmet123"), "H23");
-  EXPECT_EQ(label_of("7"), "7");
-  EXPECT_EQ(label_of("007"), "7");
-  EXPECT_EQ(label_of("a"), "A");
-  EXPECT_EQ(label_of("x0"), "X0");
-  EXPECT_EQ(label_of("_-"), "_-");
 }
 
 }  // namespace

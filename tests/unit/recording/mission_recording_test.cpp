@@ -1,100 +1,23 @@
-#include "coordinator/recording/mission_recording.hpp"
+#include "common/recording/mission_recording.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/bag/bag_reader.hpp"
 #include "common/dds/cdr_samples.hpp"
 #include "common/ros2/cdr_reader.hpp"
-#include "common/wire/loopback.hpp"
-#include "coordinator/recording/replay.hpp"
-#include "tests/support/fleet_channels.hpp"
 #include "tests/support/full_disk.hpp"
-#include "tests/support/sharing_samples.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/recorded_mission.hpp"
 
 namespace lifeline::test {
 namespace {
 
-const sharing::Speaker kVehicle{AgentId::parse("vehicle").value(), kMission, Incarnation{3}};
-
-/// A coordinator on a bus, recorded.
-class MissionRecordingTest : public testing::Test {
- protected:
-  MissionRecordingTest() {
-    auto channels = coordinator_channels(bus_);
-    tap_.attach(channels);
-    coordinator_ = std::make_unique<Coordinator>(CoordinatorSettings{kVehicle, {}, {}, {}},
-                                                 std::move(channels), worker_, clock_);
-  }
-  void begin() {
-    auto started = MissionRecording::start({folder_.path() / "records", kVehicle, {}}, clock_);
-    ASSERT_TRUE(started) << started.error().text;
-    recording_ = *std::move(started);
-  }
-  void step() {
-    clock_.advance(std::chrono::milliseconds(100));
-    coordinator_->step();
-    const auto heard = tap_.take();
-    if (recording_ != nullptr) recording_->step(heard, *coordinator_);
-  }
-  template <typename Message>
-  void put(const Message& message) {
-    ASSERT_TRUE(bus_.writer<Message>()->put(message));
-    step();
-  }
-  void put_tile(int x, std::uint64_t revision) {
-    for (const auto& part : tile_samples_of({x, 0}, revision)) put(part);
-  }
-  [[nodiscard]] std::vector<wire::TsdTile> tile_samples_of(TileIndex tile, std::uint64_t revision) {
-    std::mt19937 random(static_cast<std::uint32_t>(revision));
-    return tile_samples(alpha_, tile, revision, random_tile(random));
-  }
-  void put_pose(double x_m) {
-    wire::HelmetPose pose;
-    pose.envelope = envelope("alpha", ++poses_);
-    pose.agent_id = "alpha";
-    pose.map_id = 1;
-    pose.T_map_head = {x_m, 0.0, 0.0};
-    put(pose);
-  }
-  std::vector<bag::Message> recorded() {
-    std::vector<bag::Message> all;
-    auto reader = bag::BagReader::open(recording_->bag().string());
-    EXPECT_TRUE(reader);
-    while (auto message = reader->next().value()) all.push_back(*std::move(message));
-    return all;
-  }
-  std::size_t count(const std::string& topic) {
-    const auto all = recorded();
-    return static_cast<std::size_t>(std::count_if(
-        all.begin(), all.end(), [&](const auto& message) { return message.topic.name == topic; }));
-  }
-  /// The layers that a replay comes to, as digests.
-  sharing::RevisionDigest replayed(const LayerKey& layer) {
-    auto replay = Replay::open(recording_->bag().string());
-    EXPECT_TRUE(replay) << replay.error().text;
-    while ((*replay)->step().value()) {
-    }
-    return (*replay)->coordinator().store().digest(layer);
-  }
-
-  const LayerKey alpha_ = layer("alpha");
-  support::TemporaryFolder folder_;
-  ManualClock clock_;
-  wire::LoopbackBus bus_;
-  InlineMatchWorker worker_{matching::MatchConfig{}};
-  MessageTap tap_{kMission};
-  std::unique_ptr<Coordinator> coordinator_;
-  std::unique_ptr<MissionRecording> recording_;
-  std::uint64_t poses_ = 0;
-};
+using MissionRecordingTest = RecordedMission;
 
 TEST_F(MissionRecordingTest, WhatIsHeardIsRecordedAsItCameAndForRos2) {
   begin();
   put_tile(1, 1);
   put_pose(1.5);
-  ASSERT_TRUE(recording_->finish(*coordinator_));
+  ASSERT_TRUE(recording_->finish(state_of(*coordinator_)));
   const auto all = recorded();
   EXPECT_EQ(all.front().topic.name, "/lifeline/recording");
   EXPECT_EQ(all.back().topic.name, "/lifeline/recording");
@@ -115,7 +38,7 @@ TEST_F(MissionRecordingTest, SamplesOfAnotherMissionAreLeftOut) {
   auto foreign = tile_samples_of({1, 0}, 1).front();
   foreign.envelope.mission_id = "another";
   put(foreign);
-  ASSERT_TRUE(recording_->finish(*coordinator_));
+  ASSERT_TRUE(recording_->finish(state_of(*coordinator_)));
   EXPECT_EQ(count("/lifeline/tsd_tile"), 0U);
 }
 
@@ -124,7 +47,7 @@ TEST_F(MissionRecordingTest, WhatWasHeldBeforeItBeganIsRecordedToo) {
   put_tile(2, 5);
   begin();
   step();
-  ASSERT_TRUE(recording_->finish(*coordinator_));
+  ASSERT_TRUE(recording_->finish(state_of(*coordinator_)));
   EXPECT_EQ(replayed(alpha_), coordinator_->store().digest(alpha_));
 }
 
@@ -152,7 +75,7 @@ TEST_F(MissionRecordingTest, AfterAFullDiskTheRecordingSaysWhatIsMissingAndHolds
   }
   wait_for(wire::RecordingState::on);
   put_tile(3, 1);
-  ASSERT_TRUE(recording_->finish(*coordinator_));
+  ASSERT_TRUE(recording_->finish(state_of(*coordinator_)));
   EXPECT_GT(recording_->status().unrecorded, 0U);
   EXPECT_EQ(replayed(alpha_), coordinator_->store().digest(alpha_));
 }
@@ -168,7 +91,8 @@ TEST_F(MissionRecordingTest, ScansAreSweepsOfTheHeadWithWhatIsNotKnownLeftOpen) 
   scan.first_angle_rad = -1.0F;
   scan.angle_step_rad = 0.5F;
   scan.ranges_cm = {250, 0};
-  const auto messages = view.step({pose, scan}, *coordinator_, clock_.steady_now(), Timestamp{});
+  const auto messages =
+      view.step({pose, scan}, state_of(*coordinator_), clock_.steady_now(), Timestamp{});
   ASSERT_EQ(messages.size(), 4U);
   EXPECT_EQ(messages[0].topic, "/tf");
   EXPECT_EQ(messages[1].topic, "/ff_1/pose");
@@ -196,8 +120,8 @@ TEST(Replay, WhatIsNoRecordingOfOursIsRefusedInOneLine) {
     const auto opened = Replay::open((folder.path() / name).string());
     return opened ? std::string("accepted") : opened.error().text;
   };
-  EXPECT_THAT(refusal("a", "hello"), testing::HasSubstr("is no recording of lifeline-coordinator"));
-  EXPECT_THAT(refusal("b", "{}"), testing::HasSubstr("is no recording of lifeline-coordinator"));
+  EXPECT_THAT(refusal("a", "hello"), testing::HasSubstr("is no recording of Lifeline"));
+  EXPECT_THAT(refusal("b", "{}"), testing::HasSubstr("is no recording of Lifeline"));
   EXPECT_THAT(refusal("c", R"({"format":2})"), testing::HasSubstr("newer version"));
   EXPECT_THAT(refusal("d", R"({"format":1,"mission_id":"m","cell_size_m":1e-9,"truncation_m":1})"),
               testing::HasSubstr("makes no sense"));

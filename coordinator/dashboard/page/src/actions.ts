@@ -5,6 +5,7 @@ import type { Link } from "./link";
 import { findRoute, length, type Point } from "./route";
 import type { State } from "./state";
 import type { MapView } from "./map_view";
+import { TimeActions } from "./time_actions";
 import { decimals, say } from "./words";
 
 type Pick = "measure" | "exit" | null;
@@ -17,12 +18,16 @@ export class Actions {
   changed: () => void = () => {};
   private pick: Pick = null;
   private noteEnds = 0;
+  private toShow: string | null = null;
+  readonly time: TimeActions;
 
   constructor(
     readonly state: State,
     readonly link: Link,
     private readonly view: MapView,
-  ) {}
+  ) {
+    this.time = new TimeActions(state, link, (text) => this.announce(text));
+  }
 
   /// Stays while something is asked for, else a while.
   note(text: string): void {
@@ -68,8 +73,24 @@ export class Actions {
     this.state.selected = agentId;
     this.changed();
   }
+  /// Where a helmet is now, also from a look back.
+  showNow(agentId: string): void {
+    if (!this.state.isLookingBack()) return this.showHelmet(agentId);
+    this.toShow = agentId;
+    this.time.goLive();
+  }
+  /// Once it is known again where helmets are.
+  showWhatIsWanted(): void {
+    const agentId = this.toShow;
+    if (agentId === null || this.state.timeline) return;
+    this.toShow = null;
+    this.showHelmet(agentId);
+  }
+  /// The one whose label ends with that number; where there is none, or several, who was heard so manieth.
   selectNumber(number: number): void {
-    const member = this.state.helmets().find(({ agent }) => agent.number === number);
+    const helmets = this.state.helmets();
+    const labelled = helmets.filter(({ agent }) => /\d+$/.exec(agent.label)?.[0] === String(number));
+    const member = labelled.length === 1 ? labelled[0] : helmets.find(({ agent }) => agent.number === number);
     if (member) this.showHelmet(member.agent.agentId);
   }
   showHelmet(agentId: string): void {
@@ -97,27 +118,6 @@ export class Actions {
     this.view.route = null;
     this.view.measure = [];
     this.changed();
-  }
-
-  playOrPause(): void {
-    const { timeline } = this.state;
-    if (timeline) void this.steer(!timeline.isPaused, timeline.speed);
-  }
-  setSpeed(speed: number): void {
-    const { timeline } = this.state;
-    if (timeline) void this.steer(timeline.isPaused, speed);
-  }
-  goTo(toS: number): void {
-    const { timeline } = this.state;
-    if (timeline) void this.steer(timeline.isPaused, timeline.speed, Math.min(timeline.lengthS, Math.max(0, toS)));
-  }
-  skip(byS: number): void {
-    if (this.state.timeline) this.goTo(this.state.timeline.atS + byS);
-  }
-  /// Nothing is said where it is done: the band shows it.
-  private async steer(isPaused: boolean, speed: number, toS?: number): Promise<void> {
-    const whyNot = await this.link.ask({ case: "steer", value: toS === undefined ? { isPaused, speed } : { isPaused, speed, toS } });
-    if (whyNot !== "") this.announce(say("notDone", whyNot === "-" ? say("noLink") : whyNot));
   }
 
   showSearch(): void {

@@ -18,13 +18,12 @@ function whom(alert: Alert): string {
 
 /// Helmets that were asked and have not answered.
 function missingOf(alert: Alert, state: State): string[] {
-  const asked = state.helmets().map(({ agent }) => agent.agentId);
-  return asked.filter((id) => (!alert.subjectId || alert.subjectId === id) && !alert.acknowledgedBy.includes(id));
+  return state.asked.filter((id) => (!alert.subjectId || alert.subjectId === id) && !alert.acknowledgedBy.includes(id));
 }
 
 function answersOf(alert: Alert, state: State): string {
   if (alert.kind === 0) return alert.needsAnswer ? say("waits") : say("acknowledged");
-  const asked = alert.subjectId ? 1 : state.helmets().length;
+  const asked = alert.subjectId ? 1 : state.asked.length;
   const missing = missingOf(alert, state);
   const names = missing.length === 0 ? "" : ` · ${say("missing", missing.join(", "))}`;
   return say("answeredBy", asked - missing.length, asked) + names;
@@ -32,7 +31,8 @@ function answersOf(alert: Alert, state: State): string {
 
 function describe(alert: Alert, state: State): string {
   const text = alert.text ? ` · ${alert.text}` : "";
-  return `${clock(alert.heardAtS)}${text} · ${answersOf(alert, state)}`;
+  const live = state.isLookingBack() ? `${say("live")} · ` : "";
+  return `${live}${clock(alert.heardAtS)}${text} · ${answersOf(alert, state)}`;
 }
 
 export class Alarms {
@@ -58,7 +58,8 @@ export class Alarms {
       if (!alert.needsAnswer || this.cried.has(keyOf(alert))) continue;
       this.cried.add(keyOf(alert));
       byId("cried").textContent = `${kindOf(alert)}: ${whom(alert)}. ${alert.text}`;
-      if (alert.kind === 0) this.actions.showHelmet(whom(alert));
+      // Where it was then is not where it is.
+      if (alert.kind === 0 && !this.state.isLookingBack()) this.actions.showHelmet(whom(alert));
     }
     document.title = open.some((alert) => alert.needsAnswer) ? `! ${say("mayday")} – Lifeline` : "Lifeline";
   }
@@ -70,21 +71,21 @@ export class Alarms {
   }
 
   private makeBand(alert: Alert): HTMLElement {
-    const mayAct = this.state.mayOrder();
+    const mayAct = this.state.mayAnswer();
     return element(
       "div",
       { class: `band kind-${alert.kind}`, "data-alert": keyOf(alert) },
       element("strong", {}, `${kindOf(alert)}: ${whom(alert)}`),
       element("span", { class: "detail" }),
       element("span", { class: "buttons" },
-        button(say("show"), () => this.actions.showHelmet(whom(alert)), { class: "big", hidden: alert.kind !== 0 }),
+        button(say("show"), () => this.actions.showNow(whom(alert)), { class: "big", hidden: alert.kind !== 0 }),
         button(say("acknowledge"), () => this.actions.answer(alert, 1), { class: "big act-acknowledge", hidden: !mayAct }),
         button(say("end"), () => this.actions.answer(alert, 2), { class: "big act-end", hidden: !mayAct })),
     );
   }
 
   private makeRow(alert: Alert): HTMLElement {
-    const mayAct = this.state.mayOrder();
+    const mayAct = this.state.mayAnswer();
     return element(
       "article",
       { class: "card" },
@@ -100,7 +101,7 @@ export class Alarms {
     const over = alert.state === 2 ? ` · ${say("over")}` : "";
     setText(row.querySelector(".detail")!, describe(alert, this.state) + over);
     setAttribute(row, "data-waits", alert.needsAnswer ? "yes" : null);
-    const mayAct = this.state.mayOrder();
+    const mayAct = this.state.mayAnswer();
     row.querySelector<HTMLButtonElement>(".act-acknowledge")!.hidden = !mayAct || !alert.needsAnswer;
     row.querySelector<HTMLButtonElement>(".act-end")!.hidden = !mayAct || alert.needsAnswer || alert.state === 2;
   }

@@ -12,7 +12,7 @@ function fact(word: Word, value: string, urgent = false): HTMLElement {
 export function showFacts(state: State, link: Link, view: MapView, lastTileMs: number): void {
   const helmets = state.helmets();
   const silentS = (performance.now() - link.heardAtMs) / 1000;
-  const connection = link.isOpen && state.timeline ? say("recording") : link.isOpen ? (state.hello?.mayCommand ? say("live") : `${say("live")}, ${say("lookOnly")}`)
+  const connection = link.isOpen && state.timeline ? say(state.isLookingBack() ? "notLive" : "recording") : link.isOpen ? (state.hello?.mayCommand ? say("live") : `${say("live")}, ${say("lookOnly")}`)
     : !state.hello ? say(link.attempts > 2 ? "refused" : "joining") : say("lost", duration(silentS));
   const holders = helmets.filter(({ agent }) => agent.holdsSameMap).length;
   const cellM = view.cellM();
@@ -26,7 +26,7 @@ export function showFacts(state: State, link: Link, view: MapView, lastTileMs: n
     : state.fleet?.commonMapSha256.length ? say("sharedBy", holders, helmets.length) : say("noCommon");
   const facts = byId("facts");
   facts.replaceChildren(
-    element("div", { id: "connection", "data-urgent": link.isOpen ? undefined : "yes" }, element("dt", {}, "●"), element("dd", {}, connection)),
+    element("div", { id: "connection", "data-urgent": link.isOpen && !state.isLookingBack() ? undefined : "yes" }, element("dt", {}, "●"), element("dd", {}, connection)),
     fact("clock", clock(state.now())), fact("searched", searched),
     fact("mapAge", ageS === null ? "–" : duration(ageS)), fact("shared", map, isIdle));
   setText(byId("mission"), state.hello?.missionId ?? "Lifeline");

@@ -37,8 +37,7 @@ const lists = [
 ];
 
 let tab: (typeof TABS)[number] = "team";
-let members: string | null = null;
-let lastTileMs = 0;
+let members: string | null = null, lastTileMs = 0, liveMap = "";
 
 function chooseTab(name: (typeof TABS)[number]): void {
   tab = name;
@@ -97,6 +96,7 @@ function label(): void {
     button(say("route"), () => actions.showRoute()), button(say("setExit"), () => actions.startExit()),
     button(say("searchHelp"), () => actions.showSearch(), { id: "search-help" }), button(say("whoSearched"), () => actions.showWho(), { id: "who-searched" }), maps);
   byId("settings").replaceChildren(
+    button(say("lookBack"), () => actions.time.lookBackOrLive(), { id: "look-back" }),
     button(`${say("theme")}: ${say(currentTheme())}`, nextTheme, { id: "theme" }),
     button(currentLanguage() === "en" ? "Deutsch" : "English", nextLanguage, { lang: currentLanguage() === "en" ? "de" : "en" }),
     button(`? ${say("help")}`, showHelp));
@@ -129,7 +129,8 @@ function noteMembers(): void {
 }
 
 function chooseMap(): void {
-  const known = state.fleet?.maps ?? [];
+  if (!state.fleet) return;
+  const known = state.fleet.maps;
   const select = document.querySelector<HTMLSelectElement>("#map-choice");
   if (!state.mapChosen || !known.includes(state.map)) {
     const wanted = known.includes("") ? "" : (known[0] ?? "");
@@ -171,6 +172,7 @@ function showAll(): void {
   showOrders();
   showFacts(state, link, view, lastTileMs);
   for (const list of lists) list.show();
+  byId("look-back").hidden = state.timeline !== null;
   showPair();
   setAttribute(byId("search-help"), "aria-pressed", String(state.search.isShown));
   setAttribute(byId("who-searched"), "aria-pressed", String(state.search.isTinted));
@@ -186,6 +188,16 @@ function soon(): void {
   }, 100);
 }
 
+/// Live is left, or come back to: what was shown of the other time is void.
+function changeTime(why: string): void {
+  [members, lastTileMs, view.route] = [null, 0, null];
+  if (state.isLookingBack()) liveMap = state.map;
+  else state.map = liveMap;
+  if (!state.timeline) actions.announce(why ? say("liveAgainBecause", why) : say("liveAgain"));
+  view.redraw();
+  showAll();
+}
+
 link.onFrame = (frame) => {
   const { content } = frame;
   if (content.case === "tiles") {
@@ -193,8 +205,10 @@ link.onFrame = (frame) => {
     if (content.value.map === state.map && content.value.tiles.length > 0 && !content.value.fromStart) lastTileMs = performance.now();
     return;
   }
-  const before = state.alerts;
+  const before = state.alerts, wasPast = state.isLookingBack();
   state.take(frame);
+  if (state.isLookingBack() !== wasPast) changeTime(content.case === "live" ? content.value.why : "");
+  if (content.case === "poses") actions.showWhatIsWanted();
   if (content.case === "merges") noteMembers();
   if (state.alerts !== before) showAll();
   else if (content.case !== "poses") soon();
@@ -231,5 +245,6 @@ window.lifeline = {
   isShown: () => view.isShown(),
   frames: () => view.frames,
   view,
+  actions,
   show: showAll,
 };

@@ -1,19 +1,21 @@
-// The map: the ground is painted when it changes or moves, what lives on it above.
+// The map: ground and trails, and what lives on it above. Each is a picture that reaches beyond the view, so that moving the map
+// paints next to nothing.
 import { Camera } from "./camera";
-import { drawFind, drawMark, colourOf } from "./marks";
-import { drawCross, drawLabel, drawLine, hatching, type Stroke } from "./pen";
-import { length, type Point } from "./route";
+import { Layer } from "./layer";
+import { drawScale, drawTrail, Overlay } from "./overlay";
+import { drawCross, hatching } from "./pen";
+import type { Point } from "./route";
 import type { State } from "./state";
-import { colours } from "./theme";
+import { colours, currentTheme } from "./theme";
 import { CHUNK_CELLS, SMALLER, type TileMap, type TileMaps } from "./tiles";
-import { decimals, duration, say } from "./words";
 
 const PAINT_MS = 6;
-// Where nobody moves the map, what is new on it may wait so long; what lives on it as long as poses come.
+// What is new on the map may wait so long, longer while somebody moves it; what lives on it as long as poses come.
 const GROUND_MS = 250;
+const MOVED_GROUND_MS = 600;
 const OVERLAY_MS = 200;
-// A person who is not heard may have gone this fast since.
-const WALK_M_S = 1.0;
+// Nobody has moved it since: it rests, and is painted for just this place.
+const REST_MS = 120;
 
 export class MapView {
   readonly camera = new Camera();
@@ -21,26 +23,28 @@ export class MapView {
   route: { points: Point[]; isFree: boolean } | null = null;
   isPicking = false;
   frames = 0;
-  private readonly ground: CanvasRenderingContext2D;
-  private readonly overlay: CanvasRenderingContext2D;
-  private drawn = "";
-  private painted = false;
-  private groundAtMs = 0;
-  private overlayAtMs = 0;
-  private overlaid = "";
+  private readonly pen: CanvasRenderingContext2D;
+  private readonly overlayPen: CanvasRenderingContext2D;
+  private readonly ground = new Layer(true);
+  private readonly trails = new Layer(false);
+  private readonly overlay = new Layer(false);
+  private seen = "";
+  private movedAtMs = -Infinity;
+  /// Tiles were painted since the ground was.
+  private isGroundOld = false;
   private trailsDrawn = -1;
-  private isSketched = false;
+  private changes = 0;
   private scale = 1;
-  private unit = 1; // how much larger than on a small screen marks and letters are
-  private readonly numberOf = (name: string) => this.state.numberOf(name);
+  private unit = 1;
+  private readonly agentOf = (name: string) => this.state.agentOf(name);
 
   constructor(
     private readonly box: HTMLElement,
     private readonly state: State,
     private readonly maps: TileMaps,
   ) {
-    this.ground = (box.querySelector("#ground") as HTMLCanvasElement).getContext("2d", { alpha: false })!;
-    this.overlay = (box.querySelector("#overlay") as HTMLCanvasElement).getContext("2d")!;
+    this.pen = (box.querySelector("#ground") as HTMLCanvasElement).getContext("2d", { alpha: false })!;
+    this.overlayPen = (box.querySelector("#overlay") as HTMLCanvasElement).getContext("2d")!;
     new ResizeObserver(() => this.resize()).observe(box);
     this.resize();
   }
@@ -59,40 +63,31 @@ export class MapView {
     this.camera.isHeld = false;
   }
 
-  /// All that was decoded stands on the screen.
+  /// All that was decoded stands on the screen, painted for just this place.
   isShown(): boolean {
-    return this.map.isPainted() && !this.painted;
+    return this.map.isPainted() && !this.isGroundOld && this.ground.isExact(this.camera);
   }
 
   redraw(): void {
-    this.drawn = this.overlaid = "";
+    this.changes++;
   }
 
   draw(): void {
     this.frames++;
-    this.painted = this.map.paint(colours(), PAINT_MS) || this.painted;
+    this.isGroundOld = this.map.paint(colours(), PAINT_MS) || this.isGroundOld;
     if (!this.camera.isHeld) this.fit();
     const c = this.camera, ms = performance.now();
-    const seen = [c.x, c.y, c.pixelsPerM, c.turnRad, c.width, c.height, this.state.map].join();
-    const { search } = this.state, ground = [seen, this.state.selected, search.isTinted && search.heard].join();
-    const isOld = ms - this.groundAtMs > GROUND_MS;
-    const isMoved = ground !== this.drawn;
-    if (isMoved || (isOld && (this.painted || this.isSketched || this.trailsDrawn !== this.state.trailsHeard))) {
-      // While it moves, ways are sketched: fine ones take longer than all the rest.
-      this.isSketched = isMoved && !isOld;
-      this.drawn = ground;
-      this.groundAtMs = ms;
-      this.painted = false;
-      this.trailsDrawn = this.state.trailsHeard;
-      this.drawGround();
-      this.drawTrails();
+    const seen = [c.x, c.y, c.pixelsPerM, c.turnRad, c.width, c.height].join();
+    const isMoved = seen !== this.seen;
+    if (isMoved) {
+      this.seen = seen;
+      this.movedAtMs = ms;
     }
-    const overlay = [seen, this.state.posesHeard, this.state.selected, search.isShown && search.heard].join();
-    if (overlay !== this.overlaid || ms - this.overlayAtMs > OVERLAY_MS) {
-      this.overlaid = overlay;
-      this.overlayAtMs = ms;
-      this.drawOverlay();
+    if (this.refreshGround(ms) || isMoved) {
+      this.ground.show(this.pen, c);
+      this.trails.show(this.pen, c);
     }
+    this.refreshOverlay(ms, isMoved);
   }
 
   private resize(): void {
@@ -100,19 +95,68 @@ export class MapView {
     this.unit = Math.max(1, parseFloat(getComputedStyle(document.documentElement).fontSize) / 16);
     this.camera.width = this.box.clientWidth || 1;
     this.camera.height = this.box.clientHeight || 1;
-    for (const { canvas } of [this.ground, this.overlay]) {
+    for (const { canvas } of [this.pen, this.overlayPen]) {
       canvas.width = Math.round(this.camera.width * this.scale);
       canvas.height = Math.round(this.camera.height * this.scale);
     }
     this.redraw();
   }
 
-  private drawGround(): void {
-    const { ground, scale, camera } = this;
+  /// What a picture of the map hangs on besides where it is looked at.
+  private content(...more: unknown[]): string {
+    const { camera, state } = this;
+    return [this.changes, camera.width, camera.height, state.map, state.selected, currentTheme(), ...more].join();
+  }
+
+  /// False: ground and trails are as they were.
+  private refreshGround(ms: number): boolean {
+    const { camera, state, scale } = this, { search } = state;
+    const isMoving = ms - this.movedAtMs < REST_MS;
+    const mayWait = isMoving ? MOVED_GROUND_MS : GROUND_MS;
+    const isDue = (layer: Layer, content: string, isOld: boolean) =>
+      !layer.holds(content, camera) || (!isMoving && !layer.isExact(camera)) || (isOld && ms - layer.paintedAtMs > mayWait);
+    const ground = this.content(search.isTinted && search.heard), trails = this.content();
+    const isGroundDue = isDue(this.ground, ground, this.isGroundOld);
+    const areTrailsDue = isDue(this.trails, trails, this.trailsDrawn !== state.trailsHeard);
+    if (isGroundDue) {
+      this.isGroundOld = false;
+      this.ground.paint(camera, scale, ground, (pen, at) => this.drawGround(pen, at));
+    }
+    if (areTrailsDue) {
+      this.trailsDrawn = state.trailsHeard;
+      this.trails.paint(camera, scale, trails, (pen, at) => this.drawTrails(pen, at));
+    }
+    return isGroundDue || areTrailsDue;
+  }
+
+  private refreshOverlay(ms: number, isMoved: boolean): void {
+    const { camera, overlay, overlayPen, scale, state, measure, route, unit } = this, { search } = state;
+    const drawn = { state, measure, route, unit };
+    const isUpright = overlay.isUpright(camera);
+    const content = this.content(state.posesHeard, search.isShown && search.heard);
+    const isDue = !isUpright || !overlay.holds(content, camera) || ms - overlay.paintedAtMs > OVERLAY_MS;
+    if (!isDue && !isMoved) return;
+    overlayPen.setTransform(scale, 0, 0, scale, 0, 0);
+    overlayPen.clearRect(0, 0, camera.width, camera.height);
+    if (isMoved && !isUpright) {
+      // Letters stay upright while the map is turned: there is nothing to be shifted.
+      new Overlay(overlayPen, camera, drawn).draw();
+    } else {
+      if (isDue) overlay.paint(camera, scale, content, (pen, at) => new Overlay(pen, at, drawn).draw());
+      overlay.show(overlayPen, camera);
+    }
+    drawScale(overlayPen, camera, unit);
+    if (this.isPicking) drawCross(overlayPen, camera.width / 2, camera.height / 2, colours());
+  }
+
+  private drawGround(ground: CanvasRenderingContext2D, camera: Camera): void {
+    const { scale } = this;
     const paint = colours();
-    ground.setTransform(scale, 0, 0, scale, 0, 0);
-    // Unknown is hatched, whatever the colours: it never looks free.
-    ground.fillStyle = hatching(ground, paint.unknown, paint.hatch);
+    // Unknown is hatched, whatever the colours: it never looks free. The hatching keeps to the map.
+    const hatch = hatching(ground, paint.unknown, paint.hatch);
+    const [x, y] = camera.toScreen(0, 0);
+    hatch.setTransform(new DOMMatrix([1, 0, 0, 1, Math.round(x * scale) / scale, Math.round(y * scale) / scale]));
+    ground.fillStyle = hatch;
     ground.fillRect(0, 0, camera.width, camera.height);
     const m = this.cellM(), side = CHUNK_CELLS * m;
     ground.imageSmoothingEnabled = m * camera.pixelsPerM * scale < 1;
@@ -126,125 +170,20 @@ export class MapView {
       ground.drawImage((isFar ? chunk.smallPen : chunk.pen).canvas, 0, 0);
     }
     ground.setTransform(scale, 0, 0, scale, 0, 0);
-    if (this.state.map === "" && this.state.search.isTinted) this.state.search.drawTint(ground, camera, m, scale, this.unit, this.numberOf);
-  }
-
-  private drawOverlay(): void {
-    const { overlay, scale, camera } = this;
-    overlay.setTransform(scale, 0, 0, scale, 0, 0);
-    overlay.clearRect(0, 0, camera.width, camera.height);
-    const search = this.state.map === "" && this.state.search.isShown ? this.state.search : null;
-    search?.drawFrontiers(overlay, camera, this.unit);
-    if (this.route) this.line(overlay, this.route.points, { colour: "#009E73", width: 6, dash: this.route.isFree ? [] : [10, 8] });
-    this.drawExit();
-    search?.drawSuggestions(overlay, camera, this.unit, this.numberOf);
-    this.drawFinds();
-    this.drawHelmets();
-    this.drawMeasure();
-    this.drawScale();
-    if (this.isPicking) drawCross(overlay, camera.width / 2, camera.height / 2, colours());
-  }
-
-  private line(on: CanvasRenderingContext2D, points: Point[], stroke: Stroke): void {
-    drawLine(on, points.map((p) => this.camera.toScreen(p.x, p.y)), stroke);
-  }
-  private label(text: string, x: number, y: number): void {
-    drawLabel(this.overlay, text, x, y, this.unit, colours());
+    if (this.state.map === "" && this.state.search.isTinted) this.state.search.drawTint(ground, camera, m, scale, this.unit, this.agentOf);
   }
 
   trailOf(agentId: string): Point[] {
-    const points = this.state.trails.filter((way) => way.agentId === agentId && way.map === this.state.map).flatMap((way) => way.points);
+    const points = this.state.trailOf(agentId);
     const pose = this.state.poses.get(agentId);
-    if (pose && pose.map === this.state.map) points.push({ x: pose.xM, y: pose.yM });
-    return points;
+    return pose && pose.map === this.state.map ? [...points, { x: pose.xM, y: pose.yM }] : points;
   }
 
-  private drawTrails(): void {
+  /// From where a trail ends to where its helmet is, the overlay draws: that is newer.
+  private drawTrails(pen: CanvasRenderingContext2D, camera: Camera): void {
     for (const { agent } of this.state.helmets()) {
-      const points = this.trailOf(agent.agentId);
-      if (points.length < 2) continue;
-      const isSelected = agent.agentId === this.state.selected;
-      this.ground.globalAlpha = isSelected ? 1 : 0.7;
-      this.line(this.ground, points, { colour: colourOf(agent.number), width: isSelected ? 4 * this.unit : this.isSketched ? 1 : 2 * this.unit, hasEdge: isSelected });
-      this.ground.globalAlpha = 1;
+      const points = this.state.trailOf(agent.agentId);
+      if (points.length > 1) drawTrail(pen, camera, points, agent.number, agent.agentId === this.state.selected, this.unit);
     }
-  }
-
-  private drawHelmets(): void {
-    const { overlay, camera, state } = this, now = state.now();
-    const alarmed = new Set(state.openAlerts().filter((alert) => alert.kind === 0).map((alert) => alert.subjectId || alert.issuerId));
-    for (const { agent, pose } of state.helmets()) {
-      if (!pose || pose.map !== state.map) continue;
-      const [x, y] = camera.toScreen(pose.xM, pose.yM);
-      const age = Math.max(0, now - pose.heardAtS);
-      const unsure = 2 * pose.sigmaM + (age > 1 ? WALK_M_S * age : 0);
-      overlay.save();
-      overlay.translate(x, y);
-      if (unsure * camera.pixelsPerM > 16 * this.unit) {
-        overlay.beginPath();
-        overlay.arc(0, 0, Math.min(4000, unsure * camera.pixelsPerM), 0, 2 * Math.PI);
-        overlay.setLineDash([6, 5]);
-        overlay.lineWidth = 2;
-        overlay.strokeStyle = colours().ink;
-        overlay.stroke();
-        overlay.setLineDash([]);
-      }
-      const isLost = pose.trustPercent === 0 || agent.state === 3;
-      drawMark(overlay, {
-        number: agent.number,
-        r: 13 * this.unit,
-        headingRad: isLost ? null : -(pose.yawRad + camera.turnRad),
-        isDim: age > 2,
-        isSelected: agent.agentId === state.selected,
-        isAlarmed: alarmed.has(agent.agentId),
-      });
-      overlay.restore();
-      this.label(agent.agentId + (age > 2 ? `  ${duration(age)}` : ""), x + 30 * this.unit, y);
-    }
-  }
-
-  private drawFinds(): void {
-    const { overlay, camera, state } = this;
-    for (const find of state.finds) {
-      if (find.map !== state.map) continue;
-      const [x, y] = camera.toScreen(find.xM, find.yM);
-      overlay.save();
-      overlay.translate(x, y);
-      drawFind(overlay, find.state, find.kind, 11 * this.unit);
-      overlay.restore();
-    }
-  }
-
-  private drawExit(): void {
-    const [x, y] = this.camera.toScreen(this.state.exit.x, this.state.exit.y);
-    const { overlay } = this;
-    overlay.fillStyle = "#009E73";
-    overlay.strokeStyle = "#fff";
-    overlay.lineWidth = 2;
-    const r = 9 * this.unit;
-    overlay.fillRect(x - r, y - r, 2 * r, 2 * r);
-    overlay.strokeRect(x - r, y - r, 2 * r, 2 * r);
-    this.label(say("exit"), x + 14 * this.unit, y);
-  }
-
-  private drawMeasure(): void {
-    if (this.measure.length === 0) return;
-    this.line(this.overlay, this.measure, { colour: colours().ink, width: 2, dash: [4, 4] });
-    for (const p of this.measure) drawCross(this.overlay, ...this.camera.toScreen(p.x, p.y), colours());
-    if (this.measure.length < 2) return;
-    const [a, b] = this.measure as [Point, Point];
-    const [x, y] = this.camera.toScreen((a.x + b.x) / 2, (a.y + b.y) / 2);
-    this.label(`${decimals(length(this.measure), 2)} m`, x + 8, y - 12);
-  }
-
-  private drawScale(): void {
-    const { overlay, camera } = this;
-    const metres = [1, 2, 5, 10, 20, 50, 100, 200].find((m) => m * camera.pixelsPerM > 70 * this.unit) ?? 500;
-    const y = camera.height - 18;
-    overlay.fillStyle = colours().paper;
-    overlay.fillRect(12, y - 3, metres * camera.pixelsPerM + 4, 8);
-    overlay.fillStyle = colours().ink;
-    overlay.fillRect(14, y - 1, metres * camera.pixelsPerM, 4);
-    this.label(`${metres} m`, 14, y - 14 * this.unit);
   }
 }

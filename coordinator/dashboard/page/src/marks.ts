@@ -1,8 +1,10 @@
-// How helmets and finds look: a shape, a number and a colour each, never a colour alone (Okabe and Ito's, without vermillion,
-// which is for maydays).
+// How helmets and finds look: a shape, a label (both as on the helmets' own displays) and a colour each, never a colour alone
+// (Okabe and Ito's, without vermillion, which is for maydays).
+import type { Agent } from "./dashboard_pb";
 
 const COLOURS = ["#E69F00", "#56B4E9", "#009E73", "#F0E442", "#5D9CEC", "#CC79A7", "#FFFFFF"];
-const SIDES = [0, 4, 3, 5, 6, 8]; // circle, square, triangle, pentagon, hexagon, octagon
+const SIDES = [0, 4, 3, 5, 6]; // circle, square, triangle, pentagon, hexagon
+const LETTERS = [1.15, 1.15, 0.95, 0.72]; // of the radius, for so many characters
 
 export function colourOf(number: number): string {
   return COLOURS[(number - 1 + COLOURS.length) % COLOURS.length]!;
@@ -14,7 +16,7 @@ function outline(context: CanvasRenderingContext2D, sides: number, r: number): v
     context.arc(0, 0, r, 0, 2 * Math.PI);
     return;
   }
-  const turn = sides === 4 || sides === 8 ? Math.PI / sides : -Math.PI / 2;
+  const turn = sides === 4 ? Math.PI / sides : -Math.PI / 2;
   const grow = sides === 3 ? 1.35 : 1.1;
   for (let i = 0; i < sides; i++) {
     const angle = turn + (2 * Math.PI * i) / sides;
@@ -24,7 +26,7 @@ function outline(context: CanvasRenderingContext2D, sides: number, r: number): v
 }
 
 export interface Mark {
-  number: number;
+  agent: Pick<Agent, "label" | "shape" | "number">;
   r: number;
   /// On the screen, clockwise from the right; null where it is not known.
   headingRad: number | null;
@@ -44,27 +46,28 @@ export function drawMark(context: CanvasRenderingContext2D, mark: Mark): void {
     context.lineTo(mark.r * 1.1, -mark.r * 0.6);
     context.lineTo(mark.r * 1.1, mark.r * 0.6);
     context.closePath();
-    context.fillStyle = colourOf(mark.number);
+    context.fillStyle = colourOf(mark.agent.number);
     context.strokeStyle = "#000";
     context.lineWidth = 2;
     context.fill();
     context.stroke();
     context.restore();
   }
-  outline(context, SIDES[(mark.number - 1 + SIDES.length) % SIDES.length]!, mark.r);
+  outline(context, SIDES[mark.agent.shape % SIDES.length]!, mark.r);
   context.lineWidth = mark.isSelected ? 7 : 4;
   context.strokeStyle = mark.isSelected ? "#fff" : "#000";
   context.stroke();
   context.lineWidth = 2;
   context.strokeStyle = "#000";
-  context.fillStyle = colourOf(mark.number);
+  context.fillStyle = colourOf(mark.agent.number);
   context.fill();
   context.stroke();
   context.fillStyle = "#000";
-  context.font = `bold ${Math.round(mark.r * 1.15)}px sans-serif`;
+  const text = mark.headingRad === null ? "?" : mark.agent.label;
+  context.font = `bold ${Math.round(mark.r * LETTERS[Math.min(text.length, 3)]!)}px sans-serif`;
   context.textAlign = "center";
   context.textBaseline = "middle";
-  context.fillText(mark.headingRad === null ? "?" : String(mark.number), 0, mark.r * 0.07);
+  context.fillText(text, 0, mark.r * 0.07);
   context.globalAlpha = 1;
   if (mark.isAlarmed) {
     context.beginPath();
@@ -76,13 +79,13 @@ export function drawMark(context: CanvasRenderingContext2D, mark: Mark): void {
 }
 
 /// The same as a picture for lists.
-export function markCanvas(number: number): HTMLCanvasElement {
+export function markCanvas(agent: Mark["agent"]): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 56;
   canvas.setAttribute("aria-hidden", "true");
   const context = canvas.getContext("2d")!;
   context.translate(28, 28);
-  drawMark(context, { number, r: 17, headingRad: 0.0001, isDim: false, isSelected: false, isAlarmed: false });
+  drawMark(context, { agent, r: 17, headingRad: 0.0001, isDim: false, isSelected: false, isAlarmed: false });
   return canvas;
 }
 

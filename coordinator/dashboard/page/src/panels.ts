@@ -45,7 +45,7 @@ export class TeamPanel {
   private make({ agent }: Member): HTMLElement {
     const choose = button("", () => this.actions.showHelmet(agent.agentId), { class: "card member" });
     choose.append(
-      markCanvas(agent.number),
+      markCanvas(agent),
       element("span", { class: "name" }, agent.agentId),
       element("span", { class: "trust" }),
       element("span", { class: "condition" }),

@@ -1,6 +1,6 @@
 // What is left to be searched and who searched what, as the server told it last, and how that looks on the map.
 import { decompress } from "fzstd";
-import type { Search } from "./dashboard_pb";
+import type { Agent, Search } from "./dashboard_pb";
 import type { Camera } from "./camera";
 import { colourOf } from "./marks";
 import { drawLabel, drawLine } from "./pen";
@@ -70,10 +70,10 @@ export class SearchHelp {
     this.heard++;
   }
 
-  /// In each helmet's colour, and its number here and there: never a colour alone. `numberOf` by name; 0: not known.
-  drawTint(pen: CanvasRenderingContext2D, camera: Camera, cellM: number, scale: number, unit: number, numberOf: (name: string) => number): void {
-    const numbers = this.names.map(numberOf);
-    this.paint(numbers);
+  /// In each helmet's colour, and its label here and there: never a colour alone. `agentOf` by name.
+  drawTint(pen: CanvasRenderingContext2D, camera: Camera, cellM: number, scale: number, unit: number, agentOf: (name: string) => Agent | undefined): void {
+    const agents = this.names.map(agentOf);
+    this.paint(agents.map((agent) => agent?.number ?? 0));
     const squareM = cellM * CELLS_A_SQUARE, tileM = squareM * SIDE;
     pen.imageSmoothingEnabled = false;
     pen.globalAlpha = TINT;
@@ -87,9 +87,9 @@ export class SearchHelp {
     if (tileM * camera.pixelsPerM < 20 * unit) return;
     for (const { x, y, owners } of this.tiles) {
       const owner = owners[(SIDE / 2) * SIDE + SIDE / 2]!;
-      if (owner === 0 || (x & 1) !== 0 || (y & 1) !== 0 || !numbers[owner - 1]) continue;
+      if (owner === 0 || (x & 1) !== 0 || (y & 1) !== 0 || !agents[owner - 1]) continue;
       const [px, py] = camera.toScreen((x + 0.5) * tileM, (y + 0.5) * tileM);
-      drawLabel(pen, String(numbers[owner - 1]), px, py, unit, colours());
+      drawLabel(pen, agents[owner - 1]!.label, px, py, unit, colours());
     }
   }
 
@@ -98,11 +98,11 @@ export class SearchHelp {
       drawLine(pen, line.map((p) => camera.toScreen(p.x, p.y)), { colour: colours().ink, width: 3 * unit, dash: [7 * unit, 5 * unit] });
   }
 
-  drawSuggestions(pen: CanvasRenderingContext2D, camera: Camera, unit: number, numberOf: (name: string) => number): void {
+  drawSuggestions(pen: CanvasRenderingContext2D, camera: Camera, unit: number, agentOf: (name: string) => Agent | undefined): void {
     for (const { agentId, distanceM, way } of this.suggestions) {
       const end = way.at(-1);
       if (!end) continue;
-      const colour = colourOf(numberOf(agentId) || 1);
+      const colour = colourOf(agentOf(agentId)?.number || 1);
       drawLine(pen, way.map((p) => camera.toScreen(p.x, p.y)), { colour, width: 3 * unit, dash: [2 * unit, 7 * unit] });
       const [x, y] = camera.toScreen(end.x, end.y);
       for (const [ink, width] of [["#000", 6], [colour, 3]] as const) {
@@ -112,7 +112,7 @@ export class SearchHelp {
         pen.lineWidth = width * unit;
         pen.stroke();
       }
-      drawLabel(pen, `${numberOf(agentId)}?  ${decimals(distanceM, 0)} m`, x + 16 * unit, y, unit, colours());
+      drawLabel(pen, `${agentOf(agentId)?.label ?? ""}?  ${decimals(distanceM, 0)} m`, x + 16 * unit, y, unit, colours());
     }
   }
 

@@ -1,5 +1,6 @@
 // What the server said last, and what people chose. Plain data: everything else reads it.
 import type { Agent, Alert, Find, Fleet, Hello, Merges, Pose, ServerFrame, Timeline, Trail } from "./dashboard_pb";
+import type { Point } from "./route";
 import { pointsOf, SearchHelp } from "./search";
 
 export interface Member {
@@ -10,7 +11,7 @@ export interface Member {
 export interface Way {
   agentId: string;
   map: string;
-  points: { x: number; y: number }[];
+  points: Point[];
 }
 
 function wayOf(trail: Trail): Way {
@@ -21,9 +22,11 @@ export class State {
   hello: Hello | null = null;
   fleet: Fleet | null = null;
   merges: Merges | null = null;
-  /// Of a recording; a live mission has none.
+  /// Of a recording, or while this page looks back; else there is none.
   timeline: Timeline | null = null;
+  /// Always those of now, as who is asked by an order to everybody.
   alerts: Alert[] = [];
+  asked: string[] = [];
   finds: Find[] = [];
   poses = new Map<string, Pose>();
   /// Each helmet's way on each map, in metres.
@@ -46,11 +49,13 @@ export class State {
     const { content } = frame;
     switch (content.case) {
       case "hello":
-        if (this.hello && this.hello.incarnation !== content.value.incarnation) this.forget();
+        // A new connection is live.
+        if (this.isLookingBack() || (this.hello && this.hello.incarnation !== content.value.incarnation)) this.forget();
         this.hello = content.value;
         break;
       case "alerts":
         this.alerts = content.value.alerts;
+        this.asked = content.value.helmets;
         break;
       case "poses":
         this.setNow(content.value.nowS);
@@ -72,7 +77,12 @@ export class State {
         this.trails = content.value.trails.map(wayOf);
         break;
       case "timeline":
+        if (content.value.isMissionLive && !this.timeline) this.leaveTime();
         this.timeline = content.value;
+        break;
+      case "live":
+        this.leaveTime();
+        this.timeline = null;
         break;
       case "search":
         this.search.take(content.value);
@@ -93,14 +103,33 @@ export class State {
       .map((agent) => ({ agent, pose: this.poses.get(agent.agentId) }));
   }
 
-  /// A commander, of a mission that is live.
+  /// At an earlier time of a mission that goes on.
+  isLookingBack(): boolean {
+    return this.timeline?.isMissionLive ?? false;
+  }
+
+  /// A commander who sees what is live.
   mayOrder(): boolean {
     return (this.hello?.mayCommand ?? false) && !this.timeline;
   }
+  /// Alerts are live wherever a page looks, except in a recording.
+  mayAnswer(): boolean {
+    return this.mayOrder() || ((this.hello?.mayCommand ?? false) && this.isLookingBack());
+  }
 
-  /// 0: not heard.
-  numberOf(agentId: string): number {
-    return this.fleet?.agents.find((agent) => agent.agentId === agentId)?.number ?? 0;
+  /// A helmet's way on the map that is shown, without where it is now.
+  trailOf(agentId: string): Point[] {
+    return this.waysOf(agentId).flatMap((way) => way.points);
+  }
+  trailEnd(agentId: string): Point | undefined {
+    return this.waysOf(agentId).at(-1)?.points.at(-1);
+  }
+  private waysOf(agentId: string): Way[] {
+    return this.trails.filter((way) => way.agentId === agentId && way.map === this.map);
+  }
+
+  agentOf(agentId: string): Agent | undefined {
+    return this.fleet?.agents.find((agent) => agent.agentId === agentId);
   }
 
   /// Maydays first, then what waits for an answer, then the newest.
@@ -116,12 +145,19 @@ export class State {
     this.nowAtMs = performance.now();
   }
 
-  private forget(): void {
-    this.fleet = this.merges = this.timeline = null;
-    this.alerts = [];
+  /// What is of another time than alerts, and void at this one.
+  private leaveTime(): void {
+    this.fleet = this.merges = null;
     this.finds = [];
     this.trails = [];
     this.poses.clear();
     this.search.forget();
+    this.nowAtMs = 0;
+  }
+  private forget(): void {
+    this.leaveTime();
+    this.timeline = null;
+    this.alerts = [];
+    this.asked = [];
   }
 }

@@ -1,10 +1,10 @@
-#include "coordinator/recording/recorder.hpp"
+#include "common/recording/recorder.hpp"
 
 #include "common/base/log.hpp"
 #include "common/dds/cdr_samples.hpp"
 #include "common/dds/topics.hpp"
+#include "common/recording/topic_names.hpp"
 #include "common/sharing/tile_samples.hpp"
-#include "coordinator/recording/topic_names.hpp"
 
 namespace lifeline {
 namespace {
@@ -16,8 +16,11 @@ constexpr Duration kRetryAfter = std::chrono::seconds(1);
 
 }  // namespace
 
-Recorder::Recorder(bag::BagWriter writer)
-    : folder_(writer.folder()), writer_(std::move(writer)), thread_([this] { run(); }) {}
+Recorder::Recorder(bag::BagWriter writer, std::size_t most_waiting)
+    : folder_(writer.folder()),
+      writer_(std::move(writer)),
+      queue_(most_waiting, Overflow::drop_oldest),
+      thread_([this] { run(); }) {}
 
 Recorder::~Recorder() {
   if (thread_.joinable()) (void)finish();
@@ -33,7 +36,7 @@ Result<void> Recorder::finish() {
   return closed_;
 }
 
-RecordingStatus Recorder::status() const {
+sharing::RecordingStatus Recorder::status() const {
   return {failing_ ? wire::RecordingState::failing : wire::RecordingState::on,
           missing_ + queue_.dropped()};
 }
@@ -52,10 +55,23 @@ bool Recorder::take_gap() {
 void Recorder::run() {
   while (!queue_.finished()) {
     const auto item = queue_.pop(kCommitInterval);
+    const std::lock_guard lock(bag_mutex_);
     if (item) write(*item);
     commit_if_due(std::chrono::steady_clock::now());
   }
+  const std::lock_guard lock(bag_mutex_);
   closed_ = writer_.close();
+}
+
+Result<std::vector<bag::Message>> Recorder::read(std::uint64_t& after, std::uint64_t most,
+                                                 const bag::BagWriter::Wanted& wanted) {
+  const std::lock_guard lock(bag_mutex_);
+  return writer_.read(after, most, wanted);
+}
+
+std::optional<bag::MessageSource::Span> Recorder::span() const {
+  const std::lock_guard lock(bag_mutex_);
+  return writer_.span();
 }
 
 void Recorder::write(const Item& item) {

@@ -1,4 +1,4 @@
-#include "coordinator/recording/mission_recording.hpp"
+#include "common/recording/mission_recording.hpp"
 
 #include <ctime>
 
@@ -6,8 +6,9 @@
 
 #include "common/base/log.hpp"
 #include "common/base/sha256.hpp"
+#include "common/recording/recorded_so_far.hpp"
+#include "common/recording/topic_names.hpp"
 #include "common/sharing/accept.hpp"
-#include "coordinator/recording/topic_names.hpp"
 
 namespace lifeline {
 namespace {
@@ -38,11 +39,16 @@ ros2::Message note(const nlohmann::ordered_json& json) {
 }
 
 Result<void> write_begin(bag::BagWriter& writer, const RecordingOptions& options, Timestamp now) {
-  const ros2::Message begin = note({{"format", 1},
-                                    {"recorder", options.speaker.id.text()},
-                                    {"mission_id", options.speaker.mission_id},
-                                    {"cell_size_m", options.geometry.cell_size_m},
-                                    {"truncation_m", options.geometry.truncation_m}});
+  nlohmann::ordered_json facts{{"format", 1},
+                               {"recorder", options.speaker.id.text()},
+                               {"mission_id", options.speaker.mission_id},
+                               {"cell_size_m", options.geometry.cell_size_m},
+                               {"truncation_m", options.geometry.truncation_m}};
+  if (options.helmet) {
+    facts["helmet"] = {{"map_id", options.helmet->map_id.value},
+                       {"floor", options.helmet->floor.value}};
+  }
+  const ros2::Message begin = note(facts);
   auto written =
       writer.append({begin.topic, begin.type}, bag::Durability::volatile_, now, begin.cdr);
   return written ? writer.commit() : written;
@@ -75,28 +81,32 @@ MissionRecording::MissionRecording(RecordingOptions options, bag::BagWriter writ
       started_(clock.steady_now()),
       view_({options_.map_interval, std::nullopt}),
       stamper_(options_.speaker),
-      recorder_(std::move(writer)) {}
+      recorder_(std::move(writer), options_.most_waiting) {}
 
 Timestamp MissionRecording::stamp() const {
   return started_wall_ + (clock_.steady_now() - started_);
 }
 
-void MissionRecording::step(const std::vector<Heard>& heard, const Coordinator& coordinator) {
+void MissionRecording::step(const std::vector<Heard>& heard, const MissionState& state) {
   // What it knew before the first step was never heard.
-  if (recorder_.take_gap() || !std::exchange(begun_, true)) begin_snapshot(coordinator);
+  if (recorder_.take_gap() || !std::exchange(begun_, true)) begin_snapshot(state);
   const Timestamp now = stamp();
   for (const Heard& sample : heard) {
     remember(sample);
     recorder_.put(now, sample);
   }
-  if (coordinator.directive().epoch != epoch_) put_directive(coordinator);
-  put_snapshot(coordinator);
-  for (auto& message : view_.step(heard, coordinator, clock_.steady_now(), now))
+  if (state.directive.epoch != epoch_) put_directive(state);
+  put_snapshot(state);
+  for (auto& message : view_.step(heard, state, clock_.steady_now(), now))
     recorder_.put(now, std::move(message));
 }
 
-void MissionRecording::put_directive(const Coordinator& coordinator) {
-  wire::MergeDirective directive = coordinator.directive();
+std::unique_ptr<bag::MessageSource> MissionRecording::so_far() {
+  return std::make_unique<RecordedSoFar>(recorder_);
+}
+
+void MissionRecording::put_directive(const MissionState& state) {
+  wire::MergeDirective directive = state.directive;
   epoch_ = directive.epoch;
   if (epoch_ == 0) return;
   directive.mission_id = options_.speaker.mission_id;
@@ -104,9 +114,9 @@ void MissionRecording::put_directive(const Coordinator& coordinator) {
   recorder_.put(stamp(), Heard(std::move(directive)));
 }
 
-void MissionRecording::begin_snapshot(const Coordinator& coordinator) {
+void MissionRecording::begin_snapshot(const MissionState& state) {
   missing_.clear();
-  for (const auto& [layer, tiles] : coordinator.store().layers()) {
+  for (const auto& [layer, tiles] : state.store.layers()) {
     for (const auto& [tile, held] : tiles) missing_.push_back({layer, tile});
   }
   epoch_ = 0;
@@ -114,11 +124,11 @@ void MissionRecording::begin_snapshot(const Coordinator& coordinator) {
   for (const auto& [key, alert] : alerts_) recorder_.put(stamp(), Heard(alert));
 }
 
-void MissionRecording::put_snapshot(const Coordinator& coordinator) {
+void MissionRecording::put_snapshot(const MissionState& state) {
   while (!missing_.empty() && recorder_.waiting() < kSnapshotAhead) {
     const auto [layer, tile] = missing_.back();
     missing_.pop_back();
-    recorder_.put(stamp(), KeptTileSample{layer, tile, coordinator.store().find(layer)->at(tile),
+    recorder_.put(stamp(), KeptTileSample{layer, tile, state.store.find(layer)->at(tile),
                                           options_.geometry, stamper_.next(clock_.wall_now())});
   }
 }
@@ -132,19 +142,18 @@ void MissionRecording::remember(const Heard& heard) {
     alerts_.insert_or_assign({alert->issuer_id, alert->alert_id}, *alert);
 }
 
-Result<void> MissionRecording::finish(const Coordinator& coordinator) {
+Result<void> MissionRecording::finish(const MissionState& state) {
   while (!missing_.empty()) {
-    put_snapshot(coordinator);
+    put_snapshot(state);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the disk's turn
   }
-  if (auto map = Ros2View::map_message(coordinator, stamp()))
-    recorder_.put(stamp(), *std::move(map));
-  const auto& sha256 = coordinator.status().common_map_sha256;
-  const bool shares = !coordinator.common_map().placements().empty();
-  recorder_.put(stamp(), note({{"ended", true},
-                               {"epoch", coordinator.directive().epoch},
-                               {"messages_missing", recorder_.status().unrecorded},
-                               {"common_map_sha256", shares ? to_hex(sha256) : ""}}));
+  if (auto map = Ros2View::map_message(state, stamp())) recorder_.put(stamp(), *std::move(map));
+  const bool shares = !state.common_map.placements().empty();
+  recorder_.put(stamp(),
+                note({{"ended", true},
+                      {"epoch", state.directive.epoch},
+                      {"messages_missing", recorder_.status().unrecorded},
+                      {"common_map_sha256", shares ? to_hex(state.common_map.sha256()) : ""}}));
   return recorder_.finish();
 }
 

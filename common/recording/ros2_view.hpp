@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "common/recording/heard.hpp"
+#include "common/recording/mission_state.hpp"
 #include "common/ros2/messages.hpp"
 #include "common/ros2/names.hpp"
-#include "coordinator/recording/message_tap.hpp"
 
 namespace lifeline {
 
@@ -14,9 +15,9 @@ namespace lifeline {
 inline constexpr std::string_view kCommonFrame = "map";
 
 /// The mission as ROS 2 tools read it (docs/ros2.md): `/lifeline/map`, `/tf`, and of each helmet
-/// `/NAME/pose`, `/NAME/path` and `/NAME/scan`. Frames: `map` is the common frame of the largest
-/// group, `NAME/map` a helmet's own map frame, `NAME/base_link` its head. Stamps are the
-/// coordinator's: helmets' clocks do not agree. One owner, not thread-safe.
+/// `/NAME/pose`, `/NAME/path` and `/NAME/scan`. Frames: `map` is the common frame of the group that
+/// is shown, `NAME/map` a helmet's own map frame, `NAME/base_link` its head. Stamps are the
+/// recorder's: helmets' clocks do not agree. One owner, not thread-safe.
 class Ros2View {
  public:
   struct Config {
@@ -27,10 +28,10 @@ class Ros2View {
 
   /// What was heard of poses and scans, and then whatever is due.
   [[nodiscard]] std::vector<ros2::Message> step(const std::vector<Heard>& heard,
-                                                const Coordinator& coordinator, SteadyTime now,
+                                                const MissionState& state, SteadyTime now,
                                                 Timestamp stamp);
   /// The common map as it is; empty while there is none, or where it is too large for one grid.
-  [[nodiscard]] static std::optional<ros2::Message> map_message(const Coordinator& coordinator,
+  [[nodiscard]] static std::optional<ros2::Message> map_message(const MissionState& state,
                                                                 Timestamp stamp);
 
  private:
@@ -40,13 +41,13 @@ class Ros2View {
     bool changed = false;
   };
 
-  void see(const wire::HelmetPose& pose, const Coordinator& coordinator, Timestamp stamp);
-  void see(const wire::HelmetScan& scan, const Coordinator& coordinator, Timestamp stamp);
+  void see(const wire::HelmetPose& pose, const MissionState& state, Timestamp stamp);
+  void see(const wire::HelmetScan& scan, const MissionState& state, Timestamp stamp);
   template <typename Other>
-  void see(const Other& /*other*/, const Coordinator& /*coordinator*/, Timestamp /*stamp*/) {}
+  void see(const Other& /*other*/, const MissionState& /*state*/, Timestamp /*stamp*/) {}
   void add_transforms(const wire::LayerName& layer, const Pose2& T_map_head,
-                      const Coordinator& coordinator, Timestamp stamp);
-  void add_map(const Coordinator& coordinator, SteadyTime now, Timestamp stamp);
+                      const MissionState& state, Timestamp stamp);
+  void add_map(const MissionState& state, SteadyTime now, Timestamp stamp);
   void add_paths(SteadyTime now, Timestamp stamp);
   void note(const wire::HelmetPose& pose, Timestamp stamp);
 

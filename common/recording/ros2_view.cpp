@@ -1,4 +1,4 @@
-#include "coordinator/recording/ros2_view.hpp"
+#include "common/recording/ros2_view.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -21,36 +21,35 @@ ros2::Message message_of(std::string topic, std::string_view type, std::vector<s
   return {std::move(topic), std::string(type), std::move(cdr)};
 }
 
-sharing::RevisionDigest digest_of(const Coordinator& coordinator) {
+sharing::RevisionDigest digest_of(const MissionState& state) {
   std::vector<LayerKey> members;
-  for (const auto& placement : coordinator.common_map().placements())
-    members.push_back(placement.layer);
-  return sharing::fingerprint(Epoch{coordinator.directive().epoch}, members, coordinator.store());
+  for (const auto& placement : state.common_map.placements()) members.push_back(placement.layer);
+  return sharing::fingerprint(Epoch{state.directive.epoch}, members, state.store);
 }
 
 }  // namespace
 
 std::vector<ros2::Message> Ros2View::step(const std::vector<Heard>& heard,
-                                          const Coordinator& coordinator, SteadyTime now,
+                                          const MissionState& state, SteadyTime now,
                                           Timestamp stamp) {
   for (const Heard& sample : heard)
-    std::visit([&](const auto& message) { see(message, coordinator, stamp); }, sample);
-  if (now >= map_due_) add_map(coordinator, now, stamp);
+    std::visit([&](const auto& message) { see(message, state, stamp); }, sample);
+  if (now >= map_due_) add_map(state, now, stamp);
   if (config_.path_interval && now >= paths_due_) add_paths(now, stamp);
   return std::exchange(messages_, {});
 }
 
-void Ros2View::see(const wire::HelmetPose& pose, const Coordinator& coordinator, Timestamp stamp) {
+void Ros2View::see(const wire::HelmetPose& pose, const MissionState& state, Timestamp stamp) {
   if (!AgentId::parse(pose.agent_id) || !pose.T_map_head.is_finite()) return;
   if (!tracks_.contains(pose.agent_id) && tracks_.size() >= kMostTracks) return;
   const std::string& name = names_.of(pose.agent_id);
-  add_transforms({pose.agent_id, pose.map_id, pose.floor}, pose.T_map_head, coordinator, stamp);
+  add_transforms({pose.agent_id, pose.map_id, pose.floor}, pose.T_map_head, state, stamp);
   messages_.push_back(message_of(fmt::format("/{}/pose", name), ros2::kPoseStamped,
                                  ros2::pose_stamped(stamp, name + "/map", pose.T_map_head)));
   note(pose, stamp);
 }
 
-void Ros2View::see(const wire::HelmetScan& scan, const Coordinator& coordinator, Timestamp stamp) {
+void Ros2View::see(const wire::HelmetScan& scan, const MissionState& state, Timestamp stamp) {
   // Known already by its poses: whoever only sends scans cannot make us keep more names.
   if (!tracks_.contains(scan.agent_id) || !scan.T_map_head.is_finite()) return;
   const std::string& name = names_.of(scan.agent_id);
@@ -65,16 +64,16 @@ void Ros2View::see(const wire::HelmetScan& scan, const Coordinator& coordinator,
                                            : static_cast<float>(range_cm) / 100.0F);
   }
   // Where the head was in this sweep.
-  add_transforms({scan.agent_id, scan.map_id, scan.floor}, scan.T_map_head, coordinator, stamp);
+  add_transforms({scan.agent_id, scan.map_id, scan.floor}, scan.T_map_head, state, stamp);
   messages_.push_back(message_of(fmt::format("/{}/scan", name), ros2::kLaserScan,
                                  ros2::laser_scan(stamp, name + "/base_link", laser)));
 }
 
 void Ros2View::add_transforms(const wire::LayerName& layer, const Pose2& T_map_head,
-                              const Coordinator& coordinator, Timestamp stamp) {
+                              const MissionState& state, Timestamp stamp) {
   const std::string& name = names_.of(layer.agent_id);
   std::vector<ros2::Transform> transforms;
-  for (const auto& placement : coordinator.common_map().placements()) {
+  for (const auto& placement : state.common_map.placements()) {
     if (sharing::to_layer_name(placement.layer) != layer) continue;
     transforms.push_back(
         {std::string(kCommonFrame), name + "/map", sharing::to_pose(placement.T_fused_layer)});
@@ -100,10 +99,9 @@ void Ros2View::note(const wire::HelmetPose& pose, Timestamp stamp) {
   track.changed = true;
 }
 
-std::optional<ros2::Message> Ros2View::map_message(const Coordinator& coordinator,
-                                                   Timestamp stamp) {
-  if (coordinator.common_map().tiles().empty()) return std::nullopt;
-  const auto grid = to_occupancy(coordinator.common_map().to_grid());
+std::optional<ros2::Message> Ros2View::map_message(const MissionState& state, Timestamp stamp) {
+  if (state.common_map.tiles().empty()) return std::nullopt;
+  const auto grid = to_occupancy(state.common_map.to_grid());
   if (!grid) {
     spdlog::warn("/lifeline/map is left out: {}", grid.error().text);
     return std::nullopt;
@@ -112,14 +110,14 @@ std::optional<ros2::Message> Ros2View::map_message(const Coordinator& coordinato
                     ros2::occupancy_grid(stamp, kCommonFrame, *grid));
 }
 
-void Ros2View::add_map(const Coordinator& coordinator, SteadyTime now, Timestamp stamp) {
+void Ros2View::add_map(const MissionState& state, SteadyTime now, Timestamp stamp) {
   map_due_ = now + config_.map_interval;
-  if (coordinator.common_map().tiles().empty()) return;
-  const auto made_of = digest_of(coordinator);
+  if (state.common_map.tiles().empty()) return;
+  const auto made_of = digest_of(state);
   if (made_of == map_sent_) return;
   map_sent_ = made_of;
   const auto begun = std::chrono::steady_clock::now();
-  if (auto map = map_message(coordinator, stamp)) messages_.push_back(*std::move(map));
+  if (auto map = map_message(state, stamp)) messages_.push_back(*std::move(map));
   // A large map takes at most a twentieth of the time.
   map_due_ = std::max(map_due_, now + 20 * (std::chrono::steady_clock::now() - begun));
 }

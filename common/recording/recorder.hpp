@@ -4,15 +4,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <stop_token>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <variant>
+#include <vector>
 
 #include "common/bag/bag_writer.hpp"
 #include "common/base/bounded_queue.hpp"
+#include "common/recording/heard.hpp"
 #include "common/ros2/messages.hpp"
-#include "coordinator/recording/message_tap.hpp"
+#include "common/sharing/recording_status.hpp"
+#include "common/sharing/replica_store.hpp"
 
 namespace lifeline {
 
@@ -33,23 +37,28 @@ using Recordable = std::variant<Heard, ros2::Message, KeptTileSample>;
 /// comes is counted and left out, and it is tried again every second.
 class Recorder {
  public:
-  static constexpr std::size_t kMostWaiting = 50'000;
-
-  explicit Recorder(bag::BagWriter writer);
+  /// `most_waiting`: messages that the memory has room for while the disk is slow.
+  Recorder(bag::BagWriter writer, std::size_t most_waiting);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Never waits. Beyond kMostWaiting the oldest that waits is left out, and counted.
+  /// Never waits. Beyond `most_waiting` the oldest that waits is left out, and counted.
   void put(Timestamp stamp, Recordable what);
   /// Waits until all that was put is written, or refused, and closes the bag.
   [[nodiscard]] Result<void> finish();
 
   [[nodiscard]] std::size_t waiting() const { return queue_.size(); }
-  [[nodiscard]] RecordingStatus status() const;
+  [[nodiscard]] sharing::RecordingStatus status() const;
   /// Whether messages were left out, and there is room again, since the last call.
   [[nodiscard]] bool take_gap();
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+  // For who looks back, from any thread: waits while something is being written, and as long as the
+  // disk takes. As of bag::BagWriter.
+  [[nodiscard]] Result<std::vector<bag::Message>> read(std::uint64_t& after, std::uint64_t most,
+                                                       const bag::BagWriter::Wanted& wanted);
+  [[nodiscard]] std::optional<bag::MessageSource::Span> span() const;
 
  private:
   struct Item {
@@ -69,8 +78,9 @@ class Recorder {
   void note_success();
 
   const std::filesystem::path folder_;
-  bag::BagWriter writer_;  // the thread's alone, until it has ended
-  BoundedQueue<Item> queue_{kMostWaiting, Overflow::drop_oldest};
+  mutable std::mutex bag_mutex_;
+  bag::BagWriter writer_;  // under bag_mutex_
+  BoundedQueue<Item> queue_;
   std::atomic<bool> failing_{false};
   std::atomic<bool> gap_{false};
   std::atomic<std::uint64_t> missing_{0};
