@@ -6,9 +6,6 @@
 namespace lifeline::slam {
 namespace {
 
-/// Scans further apart than this are keyframes: the last velocity says nothing about them.
-constexpr double kLongestStep_s = 0.5;
-
 /// Share of the newest interval in the usual one.
 constexpr double kIntervalShare = 0.1;
 /// The same where the scans stopped for a while: that alone makes no keyframes of them.

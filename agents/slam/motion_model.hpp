@@ -8,6 +8,10 @@ namespace lifeline::slam {
 /// What is known of the head's motion since the previous scan, from sensors other than the lidar.
 using MotionPrior = sensing::SensedMotion;
 
+/// Scans further apart than this are keyframes, or some were missed: the last velocity says nothing
+/// about them.
+inline constexpr double kLongestStep_s = 0.5;
+
 /// How far off each kind of prediction may be, one standard deviation. A walking person, whose head
 /// turns fast.
 struct MotionConfig {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -82,7 +81,7 @@ std::vector<State> filter(std::span<const PathPlace> path, const SmoothConfig& c
     const Measurement measurement = measured(path[i]);
     const double dt_s = i == 0 ? 0.0 : to_seconds(path[i].stamp - path[i - 1].stamp);
     State state = begun_at(path[i]);
-    if (dt_s > 0.0 && dt_s <= config.longest_step_s) {
+    if (dt_s > 0.0 && dt_s <= kLongestStep_s) {
       const State next = went_on(states.back(), dt_s, config.acceleration_m_s2);
       if (squared_sigmas(next, measurement) <= config.max_sigmas * config.max_sigmas) state = next;
     }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "agents/slam/motion_model.hpp"
 #include "agents/slam/slam_types.hpp"
 #include "common/base/time.hpp"
 
@@ -35,7 +36,6 @@ struct PathPlace {
 
 struct SmoothConfig {
   double acceleration_m_s2 = 1.0;  ///< of a head that walks, one standard deviation
-  double longest_step_s = 0.5;     ///< between scans further apart nothing is known of the motion
   double max_sigmas = 4.0;         ///< a place further off its neighbours is a jump, not a motion
 };
 
