@@ -11,6 +11,7 @@ SensedMotion MotionTracker::next(const RawScan& raw) {
   if (raw.attitude && std::isfinite(raw.attitude->yaw_rad)) yaw_rad = raw.attitude->yaw_rad;
 
   SensedMotion motion;
+  motion.sweep = raw.sweep_time;
   if (started_) {
     motion.elapsed = raw.stamp - stamp_;
     if (T_odom_head && T_odom_head_) {

@@ -11,6 +11,7 @@ struct SensedMotion {
   Duration elapsed{};                   ///< 0 or less: the clock stood or went back
   std::optional<Pose2> T_previous_now;  ///< from dead reckoning, if both scans have it
   std::optional<double> yaw_step_rad;   ///< from the attitude, if both scans have it
+  Duration sweep{};                     ///< from the scan's first beam to its last
 };
 
 /// Keeps the last scan's dead reckoning and attitude and gives the differences.

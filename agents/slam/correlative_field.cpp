@@ -2,25 +2,42 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 #include "agents/slam/correlative_search.hpp"
+#include "common/base/cpu_clones.hpp"
 #include "common/grid/cell_lanes.hpp"
 #include "common/grid/point_transform.hpp"
 
 namespace lifeline::slam {
 namespace {
 
-/// How well a scan's point would fit into each of four cells; kUnknown where they are not known.
-constexpr std::int32_t kUnknown = -128;
-IntLanes fit(IntLanes cells, int free_penalty) {
-  const IntLanes tsd = (cells << 16) >> 16;
-  // The quotient of small whole numbers, cut off, is exact also by this way.
-  const FloatLanes loss = __builtin_convertvector(magnitude(tsd), FloatLanes) /
-                          static_cast<float>(TsdCell::kTsdOne / CorrelativeSearch::kFull);
-  const IntLanes near = CorrelativeSearch::kFull - __builtin_convertvector(loss, IntLanes);
-  const IntLanes known = choose(tsd > TsdCell::kTsdOne * 95 / 100, IntLanes{} - free_penalty, near);
-  return choose(cells > kTsdBits, known, IntLanes{} + kUnknown);
+/// What a cell is to a scan's point: how far off its surface is, in TsdCell units, or one of these.
+/// The least of several cells fits best.
+constexpr std::int32_t kFreeSpace = TsdCell::kTsdOne + 1, kNotKnown = TsdCell::kTsdOne + 2;
+
+/// The best fit of each two by two cells of two rows.
+LIFELINE_ALSO_FOR_AVX2
+void fit_rows(const TsdCell* low, const TsdCell* high, std::int32_t fit_of_free,
+              std::int8_t* fits) {
+  constexpr std::int32_t kLossUnit = TsdCell::kTsdOne / CorrelativeSearch::kFull;
+  std::array<std::int32_t, kTileSide> a, b;
+  std::memcpy(a.data(), low, sizeof a);
+  std::memcpy(b.data(), high, sizeof b);
+  const auto distance = [](std::int32_t cell) {
+    const std::int32_t tsd = static_cast<std::int16_t>(cell & kTsdBits);
+    const std::int32_t known = tsd > TsdCell::kTsdOne * 95 / 100 ? kFreeSpace : std::abs(tsd);
+    return cell > kTsdBits ? known : kNotKnown;
+  };
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = std::min(distance(a[i]), distance(b[i]));
+  for (std::size_t i = 0; i < a.size() / 2; ++i) {
+    const std::int32_t least = std::min(a[2 * i], a[2 * i + 1]);
+    const std::int32_t fit = CorrelativeSearch::kFull - least / kLossUnit;
+    fits[i] = static_cast<std::int8_t>(least < kFreeSpace    ? fit
+                                       : least == kFreeSpace ? fit_of_free
+                                                             : 0);
+  }
 }
 
 }  // namespace
@@ -89,18 +106,8 @@ const CorrelativeSearch::TileField& CorrelativeSearch::field_of(TileIndex tile,
   const int penalty = static_cast<int>(std::lround(config_.free_penalty * kFull));
   for (int y = 0; y < kFieldSide; ++y) {
     const TsdCell* low = cells.data() + offset_in_tile({0, 2 * y});
-    std::array<std::int32_t, kTileSide> best;  // of the two cells above each other
-    for (std::size_t x = 0; x < best.size(); x += kLanes) {
-      const IntLanes a = fit(load_cells(low + x), penalty);
-      const IntLanes b = fit(load_cells(low + kTileSide + x), penalty);
-      const IntLanes better = choose(a > b, a, b);
-      std::memcpy(&best[x], &better, sizeof better);
-    }
-    for (std::size_t x = 0; x < kFieldSide; ++x) {
-      const std::int32_t best_of_four = std::max(best[2 * x], best[2 * x + 1]);
-      slot->second[static_cast<std::size_t>(y) * kFieldSide + x] =
-          static_cast<std::int8_t>(best_of_four == kUnknown ? 0 : best_of_four);
-    }
+    fit_rows(low, low + kTileSide, -penalty,
+             slot->second.data() + static_cast<std::ptrdiff_t>(y) * kFieldSide);
   }
   return slot->second;
 }

@@ -69,7 +69,7 @@ std::vector<SearchCandidate> CorrelativeSearch::search(const WorkingMap& map,
   found_.clear();
   if (points_.empty()) return {};
   spacing_m_ = 2.0 * map.geometry().cell_size_m;
-  const double window_m = std::clamp(config_.window_sigmas * prediction.sigma_xy_m,
+  const double window_m = std::clamp(config_.window_sigmas * prediction.largest_sigma_m(),
                                      2.0 * spacing_m_, config_.max_window_m);
   const double window_rad =
       std::min(config_.window_sigmas * prediction.sigma_yaw_rad, config_.max_window_rad);
@@ -131,13 +131,6 @@ void CorrelativeSearch::score_yaw(const Pose2& centre, double yaw_rad, int windo
   std::fill_n(row_of_scores(side), columns, kWorst);
 }
 
-double CorrelativeSearch::prior_penalty(const Prediction& prediction, double dx_m, double dy_m,
-                                        double dyaw_rad) const {
-  const double xy = (dx_m * dx_m + dy_m * dy_m) / (prediction.sigma_xy_m * prediction.sigma_xy_m);
-  const double yaw = dyaw_rad * dyaw_rad / (prediction.sigma_yaw_rad * prediction.sigma_yaw_rad);
-  return 0.5 * (xy + yaw);
-}
-
 void CorrelativeSearch::collect(const Prediction& prediction, double yaw_rad, int window) {
   const int side = 2 * window + 1;
   for (int y = 0; y < side; ++y) {
@@ -157,13 +150,12 @@ void CorrelativeSearch::collect(const Prediction& prediction, double yaw_rad, in
 void CorrelativeSearch::add_candidate(const Prediction& prediction, double yaw_rad, double dx_m,
                                       double dy_m, int score) {
   const double full = static_cast<double>(kFull) * static_cast<double>(points_.size());
-  const double dyaw_rad = normalise_angle(yaw_rad - prediction.T_map_head.yaw_rad);
   SearchCandidate candidate;
   candidate.T_map_head = {prediction.T_map_head.x_m + dx_m, prediction.T_map_head.y_m + dy_m,
                           normalise_angle(yaw_rad)};
   candidate.agreement = score / full;
   candidate.score = config_.independent_points * candidate.agreement -
-                    prior_penalty(prediction, dx_m, dy_m, dyaw_rad);
+                    deviation(candidate.T_map_head, prediction);
   found_.push_back(candidate);
 }
 

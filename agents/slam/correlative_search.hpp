@@ -72,8 +72,6 @@ class CorrelativeSearch {
   }
   void add_candidate(const Prediction& prediction, double yaw_rad, double dx_m, double dy_m,
                      int score);
-  [[nodiscard]] double prior_penalty(const Prediction& prediction, double dx_m, double dy_m,
-                                     double dyaw_rad) const;
   void collect(const Prediction& prediction, double yaw_rad, int window);
   [[nodiscard]] std::vector<SearchCandidate> distinct(double yaw_step_rad);
 

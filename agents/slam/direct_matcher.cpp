@@ -21,9 +21,11 @@ constexpr float kBeamEnd = 8.0F;
 constexpr float kTypicalLength_m = 0.2F;
 
 /// The prediction's information about (x, y, yaw).
-Eigen::Vector3d information_of(const Prediction& prior) {
-  const double xy = 1.0 / (prior.sigma_xy_m * prior.sigma_xy_m);
-  return {xy, xy, 1.0 / (prior.sigma_yaw_rad * prior.sigma_yaw_rad)};
+Eigen::Matrix3d information_of(const Prediction& prior) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  information.topLeftCorner<2, 2>() = prior.covariance_xy().inverse();
+  information(2, 2) = 1.0 / (prior.sigma_yaw_rad * prior.sigma_yaw_rad);
+  return information;
 }
 
 /// Adds four quantities of four points each, point by point.
@@ -119,16 +121,15 @@ double DirectMatcher::information_scale(const Normal& normal) const {
 Pose2 DirectMatcher::align(const TsdView& view, const Pose2& start, const Prediction& prior,
                            int max_iterations) {
   Pose2 pose = start;
-  const Eigen::Vector3d held = information_of(prior);
+  const Eigen::Matrix3d held = information_of(prior);
   double kernel_m = config_.first_kernel_m;
   for (int i = 0; i < max_iterations; ++i) {
     const Normal normal = linearise(view, pose, kernel_m);
     const double scale = information_scale(normal);
     const Eigen::Vector3d off(pose.x_m - prior.T_map_head.x_m, pose.y_m - prior.T_map_head.y_m,
                               normalise_angle(pose.yaw_rad - prior.T_map_head.yaw_rad));
-    Eigen::Matrix3d H = scale * normal.H;
-    H.diagonal() += held;
-    const Eigen::Vector3d g = scale * normal.g + held.cwiseProduct(off);
+    const Eigen::Matrix3d H = scale * normal.H + held;
+    const Eigen::Vector3d g = scale * normal.g + held * off;
     Eigen::Vector3d step = -H.llt().solve(g);
     const double longest = std::max(step.head<2>().norm() / 0.2, std::abs(step.z()) / 0.1);
     if (longest > 1.0) step /= longest;
@@ -167,9 +168,7 @@ MatchEvidence DirectMatcher::judge(const TsdView& view, const Pose2& T_map_head,
   evidence.conflicts = -(conflicts[0] + conflicts[1] + conflicts[2] + conflicts[3]);
   if (evidence.model_points > 0) evidence.mean_error_m = error_sum_m / evidence.model_points;
   const Normal normal = linearise(view, T_map_head, config_.last_kernel_m);
-  Eigen::Matrix3d H = information_scale(normal) * normal.H;
-  H.diagonal() += information_of(prior);
-  evidence.covariance = H.inverse();
+  evidence.covariance = (information_scale(normal) * normal.H + information_of(prior)).inverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
       evidence.covariance.topLeftCorner<2, 2>());
   evidence.weakest_sigma_m = std::sqrt(std::max(0.0, axes.eigenvalues().y()));

@@ -16,7 +16,7 @@ constexpr double kRounding_rad = 0.0003;
 }  // namespace
 
 void KeyframeLog::note_lost(const Prediction& prediction) {
-  lost_covariance_ += diagonal_covariance(prediction.sigma_xy_m, prediction.sigma_yaw_rad);
+  lost_covariance_ += diagonal_covariance(prediction.largest_sigma_m(), prediction.sigma_yaw_rad);
 }
 
 bool KeyframeLog::is_due(const Pose2& T_map_head) const {

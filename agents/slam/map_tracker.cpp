@@ -34,7 +34,16 @@ MatchResult MapTracker::match_locally(const TsdView& view, std::span<const Surfa
   const StageTimer timer(times_ == nullptr ? nullptr : &times_->match);
   direct_.set_scan(pieces);
   const Pose2 pose = direct_.align(view, prediction);
-  return judged(view, pose, PoseSource::map, prediction);
+  const MatchResult held = judged(view, pose, PoseSource::map, prediction);
+  if (held.evidence.inlier_share() >= config_.sure_share) return held;
+  // Who stops or turns at once is not where he was expected: the map alone may know better.
+  Prediction loose = prediction;
+  loose.sigma_xy_m = std::max(loose.sigma_xy_m, config_.surprise_sigma_m);
+  const Pose2 free = direct_.align(view, loose);
+  const auto likely = [&](const Pose2& T_map_head) {
+    return log_likelihood(direct_.agreement(view, T_map_head), T_map_head, loose);
+  };
+  return likely(free) > likely(pose) ? judged(view, free, PoseSource::map, loose) : held;
 }
 
 Eigen::Matrix3d MapTracker::spread(const std::vector<ScoredMatch>& matches,
@@ -97,7 +106,7 @@ std::vector<MapTracker::Place> MapTracker::rivals_of(const TsdView& view,
 }
 
 bool MapTracker::needs_search(const MatchResult& local, const Prediction& prediction) const {
-  if (prediction.sigma_xy_m > config_.search_sigma_m) return true;
+  if (prediction.largest_sigma_m() > config_.search_sigma_m) return true;
   if (local.evidence.inlier_share() >= config_.sure_share) return false;
   return local.verdict != Verdict::accepted ||
          prediction.sigma_yaw_rad * config_.lever_m > config_.search_sigma_m;
@@ -123,12 +132,7 @@ void MapTracker::follow_beams(const TsdView& view, const Prediction& prediction,
 
 double MapTracker::log_likelihood(double fit, const Pose2& T_map_head,
                                   const Prediction& prediction) const {
-  const Pose2& expected = prediction.T_map_head;
-  const double xy =
-      (T_map_head.translation() - expected.translation()).norm() / prediction.sigma_xy_m;
-  const double yaw =
-      normalise_angle(T_map_head.yaw_rad - expected.yaw_rad) / prediction.sigma_yaw_rad;
-  return search_.config().independent_points * fit - 0.5 * (xy * xy + yaw * yaw);
+  return search_.config().independent_points * fit - deviation(T_map_head, prediction);
 }
 
 MatchResult MapTracker::judged(const TsdView& view, const Pose2& T_map_head, PoseSource source,

@@ -17,9 +17,10 @@ struct TrackerConfig {
   int min_known = 30;         ///< points where the map knows anything
   double accept_share = 0.6;  ///< inliers among them
   double weak_share = 0.4;
-  double sure_share = 0.85;      ///< no search where the prediction led to this
-  double search_sigma_m = 0.15;  ///< always search where the prediction may be this far off
-  double lever_m = 5.0;          ///< what an error in yaw is worth
+  double sure_share = 0.85;       ///< no search where the prediction led to this
+  double surprise_sigma_m = 0.1;  ///< how far off a prediction may be that led to nothing sure
+  double search_sigma_m = 0.15;   ///< always search where the prediction may be this far off
+  double lever_m = 5.0;           ///< what an error in yaw is worth
   double rival_score = 6.0;   ///< places this much less likely (a log-likelihood) are kept in mind
   int max_rivals = 3;         ///< beside the best
   double through_wall = 1.0;  ///< what a point costs that was seen through a wall, against 1 on one

@@ -5,27 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "agents/slam/motion_model.hpp"
-#include "agents/slam/slam_types.hpp"
+#include "agents/slam/walk_filter.hpp"
 #include "common/base/time.hpp"
 
 namespace lifeline::slam {
-
-/// What a scan by itself tells of where it was taken, without the prediction it was matched from.
-/// Axes of the frame that the position is given in.
-struct PositionFix {
-  /// In 1/m^2; along a direction in which nothing was seen it is zero.
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  /// Information times (where the scan alone would lie - where it was placed), in 1/m: the
-  /// prediction drew it away from there.
-  Eigen::Vector2d pull = Eigen::Vector2d::Zero();
-};
-
-/// Takes the prediction's share out of a match's place and covariance. Frame: map. Nothing is known
-/// where the match was rejected; one that states no covariance is taken as certain.
-[[nodiscard]] PositionFix position_fix(const MatchResult& match, const Prediction& prediction);
-/// Of a place that is to stay where it is.
-[[nodiscard]] PositionFix certain_fix();
 
 /// One place of a path: where the scan was placed when it came, and what it told.
 struct PathPlace {

@@ -11,7 +11,7 @@ Pose2 RansacMatcher::match(const PointGrid& model, const PointSet& model_points,
   Pose2 best = prediction.T_map_head;
   if (scan.size() == 0 || model_points.size() == 0) return best;
   int best_score = score(model, scan, best);
-  const double window_m = std::max(0.3, config_.window_sigmas * prediction.sigma_xy_m);
+  const double window_m = std::max(0.3, config_.window_sigmas * prediction.largest_sigma_m());
   const double window_rad = std::max(0.05, config_.window_sigmas * prediction.sigma_yaw_rad);
   std::mt19937 random(config_.seed);
   for (int trial = 0; trial < config_.trials; ++trial) {

@@ -11,7 +11,20 @@ struct Prediction {
   Pose2 T_map_head;
   double sigma_xy_m = 0.0;
   double sigma_yaw_rad = 0.0;
+  /// Beside that, of x and y, in m^2: larger along a direction in which the scans before saw
+  /// nothing.
+  Eigen::Matrix2d left_open = Eigen::Matrix2d::Zero();
+
+  /// Of x and y, in m^2.
+  [[nodiscard]] Eigen::Matrix2d covariance_xy() const {
+    return left_open + sigma_xy_m * sigma_xy_m * Eigen::Matrix2d::Identity();
+  }
+  /// Along the direction in which it is largest.
+  [[nodiscard]] double largest_sigma_m() const;
 };
+
+/// Minus the log-likelihood of a pose by the prediction alone, 0 at its middle.
+[[nodiscard]] double deviation(const Pose2& T_map_head, const Prediction& prediction);
 
 /// What speaks for a match.
 struct MatchEvidence {

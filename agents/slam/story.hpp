@@ -4,6 +4,7 @@
 
 #include "agents/slam/motion_model.hpp"
 #include "agents/slam/slam_types.hpp"
+#include "agents/slam/walk_filter.hpp"
 #include "common/grid/scan2.hpp"
 #include "common/grid/scan_surface.hpp"
 
@@ -30,6 +31,7 @@ struct UnsettledScan {
 struct StoryStep {
   MatchResult match;
   Prediction prediction;
+  PositionFix fix;
 };
 
 /// One account of where the unsettled scans were taken: in a corridor of equal doors, a scan may

@@ -17,6 +17,13 @@ FailureDetector::Config detector_config(const SlamConfig& config) {
   return detector;
 }
 
+/// The same step, its translation in the frame that it ends in.
+Pose2 seen_from_its_end(const Pose2& step) {
+  const Pose2 turn{0.0, 0.0, -step.yaw_rad};
+  const Pose2 seen = turn * Pose2{step.x_m, step.y_m, 0.0};
+  return {seen.x_m, seen.y_m, step.yaw_rad};
+}
+
 }  // namespace
 
 TsdSlam::TsdSlam(SlamConfig config, GridGeometry geometry)
@@ -64,7 +71,7 @@ SlamStep TsdSlam::step(const Scan2& raw, const MotionPrior& prior, bool is_doubt
 void TsdSlam::take_in(const Scan2& raw, const MotionPrior& prior) {
   const StageTimer timer(times_ == nullptr ? nullptr : &times_->predict);
   Scan2 scan = raw;
-  deskew(scan, stories_.front().motion.predicted_step(prior), prior.elapsed);
+  deskew(scan, seen_from_its_end(stories_.front().motion.predicted_step(prior)), prior.elapsed);
   auto pieces = extract_surface(scan, config_.surface);
   const double reach_m = reach_of(pieces);
   const bool is_walked = !prior.T_previous_now && stories_.front().motion.is_lidar_at_work();
@@ -107,6 +114,7 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
     if (recovering_ && found.match.evidence.inlier_share() < config_.tracker.sure_share) {
       found.match.verdict = Verdict::rejected;
     }
+    const PositionFix fix = fix_of(found.match, prediction, story.motion, prior);
     if (found.match.verdict == Verdict::rejected) {
       found.match.T_map_head = prediction.T_map_head;
       found.match.source = PoseSource::dead_reckoning;
@@ -114,11 +122,22 @@ void TsdSlam::extend(const Story& story, const MotionPrior& prior, std::vector<S
     } else if (recovering_) {
       recover(found.match, next.motion);
     } else {
-      next.motion.matched(found.match.T_map_head, prior);
+      next.motion.matched(found.match.T_map_head, prior, fix);
     }
-    next.steps.push_back({std::move(found.match), prediction});
+    next.steps.push_back({std::move(found.match), prediction, fix});
     longer.push_back(std::move(next));
   }
+}
+
+PositionFix TsdSlam::fix_of(const MatchResult& match, const Prediction& prediction,
+                            const MotionModel& motion, const MotionPrior& prior) const {
+  if (!unsettled_.back().is_walked) return certain_fix();
+  PositionFix fix = position_fix(match, prediction);
+  if (prior.elapsed <= Duration{0}) return fix;
+  fix.after_stamp_s = half_sweep_s(prior);
+  const Eigen::Vector2d step_m = prediction.T_map_head.translation() - motion.pose().translation();
+  fix.ahead_m = step_m * (fix.after_stamp_s / to_seconds(prior.elapsed));
+  return fix;
 }
 
 std::vector<ScoredMatch> TsdSlam::place(const Prediction& prediction, const Story& story,
@@ -172,7 +191,7 @@ MatchResult TsdSlam::match_previous_scan(const Prediction& prediction, const Pos
   result.evidence.inliers = result.evidence.model_points = error.model_points;
   result.evidence.mean_error_m = error.mean_error_m;
   const Pose2 off = prediction.T_map_head.inverse() * result.T_map_head;
-  const bool believable = off.translation().norm() < 4.0 * prediction.sigma_xy_m + 0.2 &&
+  const bool believable = off.translation().norm() < 4.0 * prediction.largest_sigma_m() + 0.2 &&
                           std::abs(off.yaw_rad) < 4.0 * prediction.sigma_yaw_rad + 0.05;
   result.verdict = detector_.detect(error) || !believable ? Verdict::rejected : Verdict::accepted;
   return result;

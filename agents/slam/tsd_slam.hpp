@@ -158,6 +158,8 @@ class TsdSlam {
   void reckon(const MotionPrior& prior, const std::optional<Pose2>& T_previous_now);
   void add_heading_doubt(const MotionPrior& prior);
   void extend(const Story& story, const MotionPrior& prior, std::vector<Story>& longer);
+  [[nodiscard]] PositionFix fix_of(const MatchResult& match, const Prediction& prediction,
+                                   const MotionModel& motion, const MotionPrior& prior) const;
   [[nodiscard]] std::vector<ScoredMatch> place(const Prediction& prediction, const Story& story,
                                                const Pose2& predicted_step);
   [[nodiscard]] MatchResult match_by_model(const Prediction& prediction, const Story& story) const;

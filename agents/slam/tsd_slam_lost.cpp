@@ -17,7 +17,7 @@ constexpr double kReachedSigmas = 1.5;
 }  // namespace
 
 void TsdSlam::recover(MatchResult& match, MotionModel& motion) const {
-  motion.found(match.T_map_head);
+  motion.found(match.T_map_head, match.evidence.covariance.topLeftCorner<2, 2>());
   if (match.evidence.weakest_sigma_m <= config_.recovered_sigma_m) return;
   // Along a corridor, say: used, but not pushed, and looked for as widely as before.
   match.verdict = Verdict::weak;
@@ -44,7 +44,7 @@ void TsdSlam::note_match(const MotionPrior& prior) {
   const double sigma_yaw_rad =
       std::min(last.prediction.sigma_yaw_rad, std::sqrt(heading_variance_));
   const bool beyond_search =
-      search.window_sigmas * last.prediction.sigma_xy_m > search.max_window_m ||
+      search.window_sigmas * last.prediction.largest_sigma_m() > search.max_window_m ||
       search.window_sigmas * sigma_yaw_rad > search.max_window_rad;
   if (!beyond_search || rejected_in_a_row_ < config_.lost_after_scans) return;
   lost_ = true;
@@ -82,6 +82,7 @@ SlamStep TsdSlam::step_lost(const MotionPrior& prior) {
     // The next scan enters the map, once it has been matched from here as usual.
     motion.reset(place->T_map_head * T_previous_now->inverse());
     motion.matched(place->T_map_head, prior);
+    motion.found(place->T_map_head, place->evidence.covariance.topLeftCorner<2, 2>());
     step.evidence = place->evidence;
     step.verdict = Verdict::weak;
     step.source = PoseSource::relocalised;

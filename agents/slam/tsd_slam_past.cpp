@@ -34,7 +34,7 @@ bool TsdSlam::settle_scan(const UnsettledScan& scan, const StoryStep& step) {
   if (!accepted) {
     keyframes_.note_lost(step.prediction);
     if (unplaced_.size() < kMaxUnplaced) {
-      unplaced_.push_back({settled_.size(), step.prediction.sigma_xy_m,
+      unplaced_.push_back({settled_.size(), step.prediction.largest_sigma_m(),
                            step.prediction.sigma_yaw_rad, PackedSurface(scan.pieces)});
     }
   }
@@ -45,8 +45,7 @@ bool TsdSlam::settle_scan(const UnsettledScan& scan, const StoryStep& step) {
       keyframes_.keep(scan.scan.stamp, T_map_head, step.match.evidence.covariance, scan.pieces);
     }
   }
-  note_settled(scan.scan.stamp, T_map_head,
-               scan.is_walked ? position_fix(step.match, step.prediction) : certain_fix());
+  note_settled(scan.scan.stamp, T_map_head, step.fix);
   return pushes;
 }
 

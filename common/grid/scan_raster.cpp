@@ -1,11 +1,8 @@
 #include "common/grid/scan_raster.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
-#include "common/base/cpu_clones.hpp"
 #include "common/grid/cell_lanes.hpp"
 
 namespace lifeline {
@@ -27,15 +24,9 @@ Interval solve(float slope, float constant, float low, float high) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Fills those of `count` cells that hold nothing yet.
-LIFELINE_ALSO_FOR_AVX2
-void fill_unknown(TsdCell* cells, std::int32_t count, std::int32_t filled) {
-  for (std::int32_t i = 0; i < count; ++i) {
-    std::int32_t cell;
-    std::memcpy(&cell, cells + i, sizeof cell);
-    cell = cell <= kTsdBits ? filled : cell;
-    std::memcpy(static_cast<void*>(cells + i), &cell, sizeof cell);
-  }
+/// The bits [first, end) of 64; one at least.
+std::uint64_t bits_between(std::int32_t first, std::int32_t end) {
+  return ~std::uint64_t{0} >> (kTileSide - (end - first)) << first;
 }
 
 float reach_of(std::span<const SurfacePiece> pieces) {
@@ -81,8 +72,11 @@ void ScanRaster::draw(std::span<const SurfacePiece> pieces, const Pose2& T_map_h
     draw_piece({head + turned(piece.point) / cell_m, turned(piece.normal), piece.left_m / cell_m,
                 piece.right_m / cell_m, piece.quality * weight});
   }
+  free_cell_ = {TsdCell::kTsdOne, static_cast<std::uint16_t>(
+                                      std::lround(weight * free_weight_ * TsdCell::kWeightOne))};
+  if (!free_cell_.known()) return;
   outline_.trace(pieces, T_raster_head, geometry_);
-  fill_outline(weight * free_weight_);
+  fill_outline();
 }
 
 void ScanRaster::clear() {
@@ -91,7 +85,7 @@ void ScanRaster::clear() {
     for (int row = 0; row < kTileSide; ++row) {
       const auto r = static_cast<std::size_t>(row);
       if (tile.first[r] >= tile.last[r]) continue;
-      const auto begin = tile.cells.begin() + row * kTileSide;
+      const auto begin = tile.surfaces.begin() + row * kTileSide;
       std::fill(begin + tile.first[r], begin + tile.last[r], TsdCell{});
     }
   }
@@ -113,6 +107,7 @@ ScanRaster::Tile* ScanRaster::add_tile(TileIndex local, std::int32_t& slot) {
   tile.index = index;
   tile.first.fill(kTileSide);
   tile.last.fill(0);
+  tile.free.fill(0);
   return &tile;
 }
 
@@ -125,10 +120,7 @@ void ScanRaster::each_stretch(std::int32_t row, std::int32_t first, std::int32_t
     const std::int32_t corner = index.x * kTileSide;
     const std::int32_t end = std::min(last + 1, corner + kTileSide);
     if (Tile* tile = tile_at(index)) {
-      const auto r = static_cast<std::size_t>(row & (kTileSide - 1));
-      tile->first[r] = std::min(tile->first[r], static_cast<std::uint8_t>(x - corner));
-      tile->last[r] = std::max(tile->last[r], static_cast<std::uint8_t>(end - corner));
-      use(tile->cells.data() + r * kTileSide, corner, x, end);
+      use(*tile, corner, x, end);
     }
     x = end;
   }
@@ -170,8 +162,12 @@ void ScanRaster::draw_row(const DrawnPiece& piece, std::int32_t row, std::int32_
     const IntLanes drawn = inside & (weight != 0) & is_nearer;
     store_cells(choose(drawn, (weight << 16) | (tsd & kTsdBits), was), cells);
   };
+  const auto r = static_cast<std::size_t>(row & (kTileSide - 1));
   each_stretch(row, first, last,
-               [&](TsdCell* cells, std::int32_t corner, std::int32_t x, std::int32_t end) {
+               [&](Tile& tile, std::int32_t corner, std::int32_t x, std::int32_t end) {
+                 tile.first[r] = std::min(tile.first[r], static_cast<std::uint8_t>(x - corner));
+                 tile.last[r] = std::max(tile.last[r], static_cast<std::uint8_t>(end - corner));
+                 TsdCell* cells = tile.surfaces.data() + r * kTileSide;
                  for (std::int32_t four = x / kLanes * kLanes; four < end; four += kLanes) {
                    const IntLanes here = count_from(four);
                    draw_four(cells + (four - corner), here, (here >= x) & (here < end));
@@ -179,14 +175,12 @@ void ScanRaster::draw_row(const DrawnPiece& piece, std::int32_t row, std::int32_
                });
 }
 
-void ScanRaster::fill_outline(float weight) {
-  const TsdCell free{TsdCell::kTsdOne,
-                     static_cast<std::uint16_t>(std::lround(weight * TsdCell::kWeightOne))};
-  if (free.weight == 0) return;
+void ScanRaster::fill_outline() {
   for (const FreeOutline::Run& run : outline_.runs(rows_ * kTileSide)) {
+    const auto r = static_cast<std::size_t>(run.row & (kTileSide - 1));
     each_stretch(run.row, run.first, run.last,
-                 [&](TsdCell* cells, std::int32_t corner, std::int32_t x, std::int32_t end) {
-                   fill_unknown(cells + (x - corner), end - x, std::bit_cast<std::int32_t>(free));
+                 [&](Tile& tile, std::int32_t corner, std::int32_t x, std::int32_t end) {
+                   tile.free[r] |= bits_between(x - corner, end - corner);
                  });
   }
 }

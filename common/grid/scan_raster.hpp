@@ -27,12 +27,14 @@ struct RasterConfig {
 /// where beams returned nothing, nothing is drawn. Keeps its memory from scan to scan.
 class ScanRaster {
  public:
-  /// 64 x 64 cells, drawn in the columns [first[row], last[row]) only.
+  /// 64 x 64 cells. Surfaces are drawn in the columns [first[row], last[row]) only; free space,
+  /// most of a scan, is bits, and counts where no surface is drawn.
   struct Tile {
     TileIndex index;
-    TsdTile cells{};
+    TsdTile surfaces{};
     std::array<std::uint8_t, kTileSide> first{};
     std::array<std::uint8_t, kTileSide> last{};
+    std::array<std::uint64_t, kTileSide> free{};  ///< of each row: bit x is column x
   };
 
   ScanRaster(GridGeometry geometry, RasterConfig config);
@@ -45,6 +47,14 @@ class ScanRaster {
   [[nodiscard]] std::span<const std::unique_ptr<Tile>> tiles() const {
     return std::span(tiles_).first(used_);
   }
+  /// What a cell of free space is in this scan.
+  [[nodiscard]] TsdCell free_cell() const { return free_cell_; }
+  /// What this scan shows in one cell of a tile, by its offset_in_tile().
+  [[nodiscard]] TsdCell cell(const Tile& tile, std::size_t offset) const {
+    const TsdCell surface = tile.surfaces[offset];
+    const bool is_free = (tile.free[offset / kTileSide] >> (offset % kTileSide) & 1U) != 0;
+    return surface.known() || !is_free ? surface : free_cell_;
+  }
 
  private:
   /// A piece of surface in cells, in the raster's frame.
@@ -56,9 +66,9 @@ class ScanRaster {
   void clear();
   void draw_piece(const DrawnPiece& piece);
   void draw_row(const DrawnPiece& piece, std::int32_t row, std::int32_t first, std::int32_t last);
-  void fill_outline(float weight);
-  /// Calls use(cells, corner, x, end) for each tile's share of the cells first ... last of a row:
-  /// the tile's cells of that row, the first of which is cell `corner`, and [x, end) of them.
+  void fill_outline();
+  /// Calls use(tile, corner, x, end) for each tile's share of the cells first ... last of a row:
+  /// [x, end) of them, where the tile's first one is cell `corner`.
   template <typename Use>
   void each_stretch(std::int32_t row, std::int32_t first, std::int32_t last, Use&& use);
   /// The tile at this place of the directory; nullptr outside of it and of the map's range.
@@ -67,6 +77,7 @@ class ScanRaster {
 
   GridGeometry geometry_;
   float free_weight_;
+  TsdCell free_cell_;
   float behind_;                              ///< in cells: how deep surfaces are drawn ...
   float before_;                              ///< ... and how far before them
   float one_per_cell_;                        ///< signed distance, in TsdCell units

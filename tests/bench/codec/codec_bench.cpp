@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "common/base/quantile.hpp"
@@ -103,13 +102,13 @@ int run(const Options& options) {
 }  // namespace
 
 int run_codec_bench(std::span<const char* const> arguments) {
-  CLI::App app("What a known square metre costs on the air.", "codec");
+  CommandLine line("What a known square metre costs on the air.", "codec");
   Options options;
-  app.add_option("--out", options.out, "the figures as JSON");
-  app.add_option("--data", options.data, "folder that holds carmen/*.log.gz");
-  app.add_option("--only", options.only, "the walks whose name holds this");
-  app.add_option("--config", options.config, "configuration of the helmet (docs/parameters.md)");
-  if (const auto status = parse_arguments(app, arguments)) return *status;
+  line.add_out(options.out);
+  line.add("--data", options.data, "folder that holds carmen/*.log.gz");
+  line.add("--only", options.only, "the walks whose name holds this");
+  line.add("--config", options.config, "configuration of the helmet (docs/parameters.md)");
+  if (const auto status = line.parse(arguments)) return *status;
   return run(options);
 }
 

@@ -12,7 +12,6 @@
 #include <string>
 #include <thread>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -230,12 +229,11 @@ int run(const Options& options) {
 }  // namespace
 
 int run_dashboard_bench(std::span<const char* const> arguments) {
-  CLI::App app("The page under load, in headless Chromium.", "dashboard");
+  CommandLine line("The page under load, in headless Chromium.", "dashboard");
   Options options;
-  app.add_option("--out", options.out, "the figures as JSON");
-  app.add_option("--seconds", options.seconds, "how long frames are counted")
-      ->check(CLI::PositiveNumber);
-  if (const auto status = parse_arguments(app, arguments)) return *status;
+  line.add_out(options.out);
+  line.add("--seconds", options.seconds, "how long frames are counted", 1, 3600);
+  if (const auto status = line.parse(arguments)) return *status;
   return run(options);
 }
 

@@ -9,7 +9,6 @@
 #include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "common/base/log.hpp"
@@ -71,12 +70,12 @@ int run(const Options& options) {
 }  // namespace
 
 int run_fleet_bench(std::span<const char* const> arguments) {
-  CLI::App app("Helmets and a coordinator on simulated time and network, from seeds.", "fleet");
+  CommandLine line("Helmets and a coordinator on simulated time and network, from seeds.", "fleet");
   Options options;
-  app.add_option("--out", options.out, "the figures as JSON");
-  app.add_option("--seeds", options.seeds, "how many")->check(CLI::PositiveNumber);
-  app.add_option("--first", options.first, "the first of them");
-  if (const auto status = parse_arguments(app, arguments)) return *status;
+  line.add_out(options.out);
+  line.add("--seeds", options.seeds, "how many", std::uint64_t{1}, std::uint64_t{1'000'000'000});
+  line.add("--first", options.first, "the first of them");
+  if (const auto status = line.parse(arguments)) return *status;
   return run(options);
 }
 

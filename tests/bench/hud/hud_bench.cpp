@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <thread>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -120,12 +119,11 @@ int run(const Options& options) {
 
 int run_hud_bench(std::span<const char* const> arguments) {
   Options options;
-  CLI::App app("What the helmet's HUD costs", "lifeline bench hud");
-  app.add_option("--out", options.out, "JSON file to write");
-  app.add_option("--seconds", options.seconds, "How long each size is shown")
-      ->check(CLI::Range(1.0, 3600.0));
-  app.add_flag("--display", options.display, "On this machine's display, not on none");
-  if (const auto status = parse_arguments(app, arguments)) return *status;
+  CommandLine line("What the helmet's HUD costs", "hud");
+  line.add_out(options.out);
+  line.add("--seconds", options.seconds, "How long each size is shown", 1.0, 3600.0);
+  line.add_flag("--display", options.display, "On this machine's display, not on none");
+  if (const auto status = line.parse(arguments)) return *status;
   return run(options);
 }
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "tests/bench/command_line.hpp"
@@ -117,16 +116,14 @@ int run_hard_negatives(const Options& options) {
 }  // namespace
 
 int run_merge_bench(std::span<const char* const> arguments) {
-  CLI::App app("How often two maps are merged rightly, wrongly or not at all.", "merge");
+  CommandLine line("How often two maps are merged rightly, wrongly or not at all.", "merge");
   Options options;
-  app.add_option("--out", options.out, "the figures as JSON");
-  app.add_option("--pairs", options.pairs, "folder of pairs with an index.csv");
-  app.add_option("--plans", options.plans, "folder of HouseExpo plans");
-  app.add_option("--negatives", options.negatives, "pairs that must not be merged")
-      ->expected(0, 1)
-      ->default_str("10000");
-  app.add_option("--seed", options.seed, "of the pairs that must not be merged");
-  if (const auto status = parse_arguments(app, arguments)) return *status;
+  line.add_out(options.out);
+  line.add("--pairs", options.pairs, "folder of pairs with an index.csv");
+  line.add("--plans", options.plans, "folder of HouseExpo plans");
+  line.add_count("--negatives", options.negatives, "pairs that must not be merged", 10'000);
+  line.add("--seed", options.seed, "of the pairs that must not be merged");
+  if (const auto status = line.parse(arguments)) return *status;
   return options.negatives ? run_hard_negatives(options) : run_pairs(options);
 }
 

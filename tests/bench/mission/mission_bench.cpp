@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -114,14 +113,14 @@ int run(const Options& options) {
 }  // namespace
 
 int run_mission_bench(std::span<const char* const> arguments) {
-  CLI::App app("A team on this machine: delay from scan to common map, and a large one.",
-               "mission");
+  CommandLine line("A team on this machine: delay from scan to common map, and a large one.",
+                   "mission");
   Options options;
-  app.add_option("--out", options.out, "the figures as JSON");
-  app.add_option("--only", options.only, "cases whose name holds this");
-  app.add_option("--walk", options.walk_s, "seconds that each walks")->check(CLI::Range(10, 600));
-  app.add_option("--many", options.many, "helmets of the large team")->check(CLI::Range(2, 32));
-  if (const auto status = parse_arguments(app, arguments)) return *status;
+  line.add_out(options.out);
+  line.add("--only", options.only, "cases whose name holds this");
+  line.add("--walk", options.walk_s, "seconds that each walks", 10.0, 600.0);
+  line.add("--many", options.many, "helmets of the large team", 2, 32);
+  if (const auto status = line.parse(arguments)) return *status;
   return run(options);
 }
 

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -58,21 +57,16 @@ Report run(const Options& options) {
 }  // namespace
 
 int run_paper_bench(std::span<const char* const> arguments) {
-  CLI::App app("The paper's four experiments in simulated buildings.", "lifeline bench paper");
+  CommandLine line("The paper's four experiments in simulated buildings.", "paper");
   Options options;
-  app.add_option("--out", options.out, "the figures as JSON");
-  app.add_option("--pictures", options.pictures, "folder for pictures of the first seed");
-  app.add_option("--seeds", options.seeds, "buildings of each kind, from seed 1")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
-  app.add_option("--duration", options.duration_s, "of each walk, seconds")
-      ->check(CLI::Range(10.0, 3600.0))
-      ->capture_default_str();
-  app.add_option("--only", options.only, "which of a (doors), b (timing), c (update)")
-      ->capture_default_str();
-  app.add_option("--experiment", options.experiment, "one of 1 to 4; all without it")
-      ->check(CLI::Range(1, 4));
-  if (const auto status = parse_arguments(app, arguments)) return *status;
+  line.add_out(options.out);
+  line.add("--pictures", options.pictures, "folder for pictures of the first seed");
+  line.add("--seeds", options.seeds, "buildings of each kind, from seed 1", std::uint64_t{1},
+           std::uint64_t{10'000});
+  line.add("--duration", options.duration_s, "of each walk, seconds", 10.0, 3600.0);
+  line.add("--only", options.only, "which of a (doors), b (timing), c (update)");
+  line.add("--experiment", options.experiment, "one of 1 to 4; all with 0", 0, 4);
+  if (const auto status = line.parse(arguments)) return *status;
   if (options.only.empty() || options.only.find_first_not_of("abc") != std::string::npos) {
     fmt::print(stderr, "lifeline bench paper: --only {}: give one or more of a, b and c\n",
                options.only);

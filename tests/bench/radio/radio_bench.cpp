@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "common/base/quantile.hpp"
@@ -246,16 +245,16 @@ int run(const Options& options) {
 }  // namespace
 
 int run_radio_bench(std::span<const char* const> arguments) {
-  CLI::App app("Sharing over a radio that loses and parts, with the real programs.", "radio");
+  CommandLine line("Sharing over a radio that loses and parts, with the real programs.", "radio");
   Options options;
-  app.add_option("--out", options.out, "the figures as JSON");
-  app.add_option("--only", options.only, "cases whose name holds this");
-  app.add_option("--helmets", options.helmets, "how many")->check(CLI::Range(2, 16));
-  app.add_option("--walk", options.walk_s, "seconds that each walks")->check(CLI::Range(10, 600));
-  app.add_flag("--fine", options.fine, "without sharing.coarse_tiles");
-  app.add_flag("--kinds", options.kinds, "what the octets are made of, too");
-  app.add_option("--qos", options.qos, "instead of config/qos/wifi.xml");
-  if (const auto status = parse_arguments(app, arguments)) return *status;
+  line.add_out(options.out);
+  line.add("--only", options.only, "cases whose name holds this");
+  line.add("--helmets", options.helmets, "how many", 2, 16);
+  line.add("--walk", options.walk_s, "seconds that each walks", 10.0, 600.0);
+  line.add_flag("--fine", options.fine, "without sharing.coarse_tiles");
+  line.add_flag("--kinds", options.kinds, "what the octets are made of, too");
+  line.add("--qos", options.qos, "instead of config/qos/wifi.xml");
+  if (const auto status = line.parse(arguments)) return *status;
   return run(options);
 }
 

@@ -71,10 +71,10 @@ Costs plan_often(search::SearchPlanner& planner, int helmets, std::mt19937& rand
 }  // namespace
 
 int run_search_bench(std::span<const char* const> arguments) {
-  CLI::App app("What the search help costs", "lifeline bench search");
+  CommandLine line("What the search help costs", "search");
   std::optional<std::filesystem::path> out;
-  app.add_option("--out", out, "JSON file that takes the table");
-  if (const auto ended = parse_arguments(app, arguments)) return *ended;
+  line.add_out(out);
+  if (const auto ended = line.parse(arguments)) return *ended;
   const test::FloorPicture picture = building();
   std::mt19937 random(1);
   search::SearchPlanner planner(kCellM);

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "agents/sources/open_source.hpp"
@@ -178,21 +177,14 @@ class SlamBench {
 
 /// The exit status, where the arguments say to stop here.
 std::optional<int> parse(std::span<const char* const> arguments, Options& options) {
-  CLI::App app("One helmet's accuracy, speed and memory on recordings and simulated walks",
-               "lifeline bench slam");
-  app.add_option("--out", options.out, "JSON file to write");
-  app.add_option("--pictures", options.pictures, "Folder for a picture of every run");
-  app.add_option("--data", options.data, "Folder of recordings and plans")->capture_default_str();
-  app.add_option("--only", options.only, "Only runs whose name holds this text");
-  app.add_flag("--quick", options.quick, "Default matcher, four plans, short walks");
-  std::vector<std::string> reversed;
-  for (const char* argument : arguments) reversed.insert(reversed.begin(), argument);
-  try {
-    app.parse(std::move(reversed));
-  } catch (const CLI::ParseError& end) {
-    return app.exit(end) == 0 ? 0 : 2;
-  }
-  return std::nullopt;
+  CommandLine line("One helmet's accuracy, speed and memory on recordings and simulated walks",
+                   "slam");
+  line.add_out(options.out);
+  line.add("--pictures", options.pictures, "Folder for a picture of every run");
+  line.add("--data", options.data, "Folder of recordings and plans");
+  line.add("--only", options.only, "Only runs whose name holds this text");
+  line.add_flag("--quick", options.quick, "Default matcher, four plans, short walks");
+  return line.parse(arguments);
 }
 
 }  // namespace

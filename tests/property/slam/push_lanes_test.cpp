@@ -49,8 +49,9 @@ void push_slowly(const ScanRaster& raster, Looks looks, int weight_cap, TsdGrid&
   for (const auto& seen : raster.tiles()) {
     TsdTile& tile = grid.at(seen->index);
     for (std::size_t i = 0; i < tile.size(); ++i) {
-      tile[i] = looks == Looks::dense ? updated_densely(tile[i], seen->cells[i], weight_cap)
-                                      : updated(tile[i], seen->cells[i], weight_cap);
+      const TsdCell cell = raster.cell(*seen, i);
+      tile[i] = looks == Looks::dense ? updated_densely(tile[i], cell, weight_cap)
+                                      : updated(tile[i], cell, weight_cap);
     }
   }
 }
