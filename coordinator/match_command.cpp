@@ -84,7 +84,10 @@ std::string to_json(const matching::MatchResult& result) {
                                 {"y_m", result.overlap_centre_b_m.y()}};
   }
   json["margin"] = result.margin;
-  if (result.control_score) json["control_score"] = *result.control_score;
+  if (result.control_score) {
+    json["control_score"] = *result.control_score;
+    json["lead"] = result.lead;
+  }
   if (result.bend) {
     json["bend"] = {{"rate_rad_per_m", result.bend->rate_rad_per_m},
                     {"rate_sd_rad_per_m", result.bend->rate_sd_rad_per_m},

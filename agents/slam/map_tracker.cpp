@@ -35,7 +35,8 @@ MatchResult MapTracker::match_locally(const TsdView& view, std::span<const Surfa
   direct_.set_scan(pieces);
   const Pose2 pose = direct_.align(view, prediction);
   const MatchResult held = judged(view, pose, PoseSource::map, prediction);
-  if (held.evidence.inlier_share() >= config_.sure_share) return held;
+  const bool is_walk = prediction.left_open.trace() > 0.0;
+  if (!is_walk || held.evidence.inlier_share() >= config_.sure_share) return held;
   // Who stops or turns at once is not where he was expected: the map alone may know better.
   Prediction loose = prediction;
   loose.sigma_xy_m = std::max(loose.sigma_xy_m, config_.surprise_sigma_m);

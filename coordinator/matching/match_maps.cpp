@@ -76,8 +76,8 @@ MatchResult match_maps(const MapFeatures& a, const MapFeatures& b, const MatchCo
     if (result.accepted() && config.method == Method::oriented) {
       // Costs as much as the match: asked only of what is about to be believed.
       StopWatch watch;
-      const double ratio = limits_for(a, b, config).min_control_ratio;
-      const double least = ratio > 0.0 ? result.candidates.front().score / ratio : 0.0;
+      const double least =
+          least_control_share(limits_for(a, b, config)) * result.candidates.front().score;
       result.control_score = in_order ? best_score(a, *b.mirror, config, least)
                                       : best_score(b, *a.mirror, config, least);
       result.steps_ms.control = watch.lap_ms();

@@ -19,7 +19,7 @@ enum class Method {
 };
 
 /// What the default path asks for beyond s_0 and the acceptance index; how the values were found is
-/// told in docs/decisions/0301 to 0303.
+/// told in docs/decisions/0301 to 0306.
 struct AcceptanceLimits {
   double min_agreeing_wall_m = 4.0;   ///< less could be chance
   double max_conflict = 0.08;         ///< of the wall that speaks for or against, where much speaks
@@ -28,6 +28,8 @@ struct AcceptanceLimits {
   double max_conflict_piece_m = 6.0;  ///< in one piece: a wall, no person and no door
   double min_margin = 0.5;            ///< by which the best leads the second hypothesis
   double min_control_ratio = 2.0;     ///< to the score that the mirror image of a map gets
+  /// Margin, mirror image and agreeing area together: each of them may be small, not all at once.
+  double min_lead = 12.0;
   double max_bend_rad_per_m =
       0.04 * std::numbers::pi / 180.0;  ///< more than one rigid transform can do for
   double min_bend_sds = 3.0;            ///< a smaller bend may be the walls' noise
@@ -40,6 +42,7 @@ struct AcceptanceLimits {
   limits.min_agreeing_wall_m = 10.0;
   limits.max_conflict = 0.05;
   limits.min_margin = 0.65;
+  limits.min_lead = 0.0;  // so much wall and margin stand out enough: tried on 30,000 negatives
   return limits;
 }
 
@@ -107,6 +110,7 @@ struct MatchResult {
   /// Score of the best place of b's mirror image on a, where that was asked for: what walls of this
   /// style give by chance.
   std::optional<double> control_score;
+  double lead = 0.0;         ///< how far the best stands out from chance; 0 without control_score
   std::optional<Bend> bend;  ///< of the best candidate; only Method::oriented measures it
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the best T_a_b: x_m, y_m, yaw_rad
   Eigen::Vector2d overlap_centre_b_m{0.0, 0.0};  ///< middle of the agreeing wall, in b's frame

@@ -50,6 +50,8 @@ std::vector<AcceptanceLimits> grid() {
             limits.max_conflict = conflict;
             limits.min_conflict = 0.375 * conflict;
             limits.min_bend_sds = bend_sds;
+            // What the lead asks beyond these comes from simulated floors.
+            limits.min_lead = 0.0;
             all.push_back(limits);
           }
         }
@@ -92,6 +94,7 @@ AcceptanceLimits loose_limits() {
   limits.max_conflict_piece_m = 1e9;
   limits.min_margin = 0.2;
   limits.min_control_ratio = 0.0;
+  limits.min_lead = 0.0;
   limits.min_bend_sds = 1e9;
   return limits;
 }

@@ -10,6 +10,7 @@
 
 #include "tests/bench/command_line.hpp"
 #include "tests/bench/merge/cross_validation.hpp"
+#include "tests/bench/merge/crossed_pairs.hpp"
 #include "tests/bench/merge/fleet_pairs.hpp"
 #include "tests/bench/merge/handheld_maps.hpp"
 #include "tests/bench/merge/merge_pairs.hpp"
@@ -23,9 +24,8 @@ namespace {
 struct Options {
   std::optional<std::filesystem::path> out;
   std::filesystem::path pairs = "../shared/data/mapmerge/pairs";
-  std::filesystem::path plans = "../shared/data/floorplans/houseexpo";
   std::optional<std::size_t> negatives;
-  std::uint64_t seed = 20240;
+  NegativesChoice choice{.plans = "../shared/data/floorplans/houseexpo"};
 };
 
 /// To stderr: the table comes at the end, a minute or more later.
@@ -62,6 +62,15 @@ void write_folds(const std::vector<MergePair>& pairs, Report& report) {
                          "whose best candidate is right"});
 }
 
+void write_crossed(const std::vector<MergePair>& pairs, Report& report) {
+  constexpr std::size_t kCount = 1000;
+  const CrossedOutcome outcome = match_crossed(pairs, kCount, 1, {});
+  report.rows.push_back({fmt::format("maps of two buildings, merged wrongly of {}", outcome.pairs),
+                         static_cast<double>(outcome.accepted.size()), "",
+                         Bar{Bar::Side::at_most, 0.0}, "drawn from all maps"});
+  for (const std::string& wrong : outcome.accepted) fmt::print("wrong: {}\n", wrong);
+}
+
 int run_pairs(const Options& options) {
   const bool recorded = std::filesystem::exists(options.pairs / "index.csv");
   if (!recorded) tell(options.pairs.string() + " is not there: pairs of simulated offices");
@@ -81,6 +90,10 @@ int run_pairs(const Options& options) {
   write_side_by_side(judged, judge_all(*loaded, spectra), report);
   tell("learning limits on all buildings but one");
   write_folds(*loaded, report);
+  if (recorded) {
+    tell("maps of different buildings against each other");
+    write_crossed(*loaded, report);
+  }
   tell("ten helmets on one floor");
   write_fleet_rows(report);
   tell("hand-held maps");
@@ -88,12 +101,12 @@ int run_pairs(const Options& options) {
   return finish(report, options.out);
 }
 
-int run_hard_negatives(const Options& options) {
+int run_hard_negatives(Options options) {
+  options.choice.pairs = *options.negatives;
   const NegativesOutcome outcome =
-      run_negatives(*options.negatives, options.plans, options.seed, {},
-                    [](std::size_t pairs, std::size_t wrong) {
-                      tell(fmt::format("{} pairs, {} merged wrongly", pairs, wrong));
-                    });
+      run_negatives(options.choice, {}, [](std::size_t pairs, std::size_t wrong) {
+        tell(fmt::format("{} pairs, {} merged wrongly", pairs, wrong));
+      });
   Report report{"merge --negatives", describe_machine(), {}};
   for (const NegativeKind& kind : outcome.kinds) {
     report.rows.push_back({fmt::format("{}: merged wrongly of {}", kind.name, kind.pairs),
@@ -120,9 +133,11 @@ int run_merge_bench(std::span<const char* const> arguments) {
   Options options;
   line.add_out(options.out);
   line.add("--pairs", options.pairs, "folder of pairs with an index.csv");
-  line.add("--plans", options.plans, "folder of HouseExpo plans");
+  line.add("--plans", options.choice.plans, "folder of HouseExpo plans");
   line.add_count("--negatives", options.negatives, "pairs that must not be merged", 10'000);
-  line.add("--seed", options.seed, "of the pairs that must not be merged");
+  line.add("--seed", options.choice.seed, "of the pairs that must not be merged");
+  line.add_flag("--pictures", options.choice.pictures,
+                "of these, the cells as a saved map has them instead of TSD layers");
   if (const auto status = line.parse(arguments)) return *status;
   return options.negatives ? run_hard_negatives(options) : run_pairs(options);
 }

@@ -78,9 +78,17 @@ std::pair<FloorPlan, Kind> draw_plan(std::size_t number,
   return {office(100 + number, draw), apart};
 }
 
-MappedFloor map_floor(const test::SimulatedFloor& floor, Kind kind, int views, Draw& draw) {
+Result<matching::MapFeatures> features_of(const TsdGrid& layer, bool as_picture) {
+  if (!as_picture) return matching::build_features(layer);
+  const auto picture = to_occupancy(layer);
+  if (!picture) return forward_error(picture);
+  return matching::build_features(*picture);
+}
+
+MappedFloor map_floor(const test::SimulatedFloor& floor, Kind kind, bool as_pictures, Draw& draw) {
+  constexpr int kViews = 8;
   MappedFloor mapped{floor.plan().name, kind, {}};
-  for (int i = 0; i < views; ++i) {
+  for (int i = 0; i < kViews; ++i) {
     test::SimulatedView view;
     view.walker = {.seed = 7, .walker = i % 4, .walkers = 4};
     view.from_s = i < 4 ? 0.0 : draw.between(10.0, 60.0);
@@ -88,7 +96,7 @@ MappedFloor map_floor(const test::SimulatedFloor& floor, Kind kind, int views, D
     view.T_world_map = {draw.between(-5, 5), draw.between(-5, 5),
                         draw.between(-std::numbers::pi, std::numbers::pi)};
     view.noise_seed = static_cast<std::uint64_t>(draw.below(1 << 30));
-    auto features = matching::build_features(floor.map(view));
+    auto features = features_of(floor.map(view), as_pictures);
     if (features) mapped.views.push_back({view.T_world_map, *std::move(features)});
   }
   return mapped;
@@ -169,32 +177,30 @@ void match_across(const MappedFloor& one, const MappedFloor& other, Kind kind, T
 
 }  // namespace
 
-NegativesOutcome run_negatives(std::size_t pairs, const std::filesystem::path& plans,
-                               std::uint64_t seed, const matching::MatchConfig& config,
+NegativesOutcome run_negatives(const NegativesChoice& choice, const matching::MatchConfig& config,
                                const std::function<void(std::size_t, std::size_t)>& tell) {
-  constexpr int kViews = 8;
   constexpr std::size_t kOthers = 12;  // earlier floors that a floor is held against
-  const auto houses = houseexpo_files(plans);
-  Draw draw(seed);
-  Tally tally(config, pairs);
+  const auto houses = houseexpo_files(choice.plans);
+  Draw draw(choice.seed);
+  Tally tally(config, choice.pairs);
   std::vector<MappedFloor> floors;
   for (std::size_t number = 0; !tally.done(); ++number) {
     auto [plan, kind] = draw_plan(number, houses, draw);
     auto floor = test::SimulatedFloor::make(plan);
     if (!floor) continue;
-    MappedFloor mapped = map_floor(*floor, kind, kViews, draw);
+    MappedFloor mapped = map_floor(*floor, kind, choice.pictures, draw);
     if (mapped.views.empty()) continue;
     match_within(mapped, tally);
     for (const MappedFloor& earlier : floors) match_across(mapped, earlier, other_plan, tally);
     if (kind == apart) {
       if (auto image = test::SimulatedFloor::make(test::mirrored(plan))) {
-        const MappedFloor mirror_floor = map_floor(*image, kind, kViews, draw);
+        const MappedFloor mirror_floor = map_floor(*image, kind, choice.pictures, draw);
         if (!mirror_floor.views.empty()) match_across(mapped, mirror_floor, mirror, tally);
       }
     }
     if (floors.size() == kOthers) floors.erase(floors.begin());
     floors.push_back(std::move(mapped));
-    if (tell) tell(pairs - tally.left(), tally.wrong());
+    if (tell) tell(choice.pairs - tally.left(), tally.wrong());
   }
   return tally.take();
 }

@@ -29,15 +29,22 @@ struct NegativesOutcome {
   std::vector<FalseAccept> wrong;
 };
 
-/// Matches at least `pairs` pairs of simulated maps that tempt to a wrong merge: other plans, the
+/// Which pairs are made. The same numbers give the same pairs.
+struct NegativesChoice {
+  std::size_t pairs = 10'000;
+  std::filesystem::path plans =
+      {};  ///< folder of HouseExpo plans; without it, generated offices alone
+  std::uint64_t seed = 20240;
+  bool pictures = false;  ///< the cells of Eq. 6, as a saved map has them, instead of TSD layers
+};
+
+/// Matches `choice.pairs` pairs of simulated maps that tempt to a wrong merge: other plans, the
 /// mirror image of a plan, parts of one plan far from each other, symmetric halls, repeated rooms.
 /// Maps of one floor count as wrong only where they are merged 0.5 m or 2 deg or more off the
-/// truth. Plans: generated offices, and those in the folder of HouseExpo `plans` where it exists.
-/// The same numbers give the same pairs. `tell` hears after each floor how many pairs were matched
-/// and how many of them merged wrongly.
+/// truth. `tell` hears after each floor how many pairs were matched and how many of them merged
+/// wrongly.
 [[nodiscard]] NegativesOutcome run_negatives(
-    std::size_t pairs, const std::filesystem::path& plans, std::uint64_t seed,
-    const matching::MatchConfig& config,
+    const NegativesChoice& choice, const matching::MatchConfig& config,
     const std::function<void(std::size_t, std::size_t)>& tell = {});
 
 }  // namespace lifeline::bench

@@ -9,7 +9,7 @@ namespace {
 
 TEST(HardNegativesTest, NoneOf300IsMergedAndMapsThatShareAFloorAre) {
   // No folder of plans: the same floors wherever the test runs.
-  const NegativesOutcome outcome = run_negatives(300, {}, 20240, {});
+  const NegativesOutcome outcome = run_negatives({.pairs = 300}, {});
   std::size_t pairs = 0, right = 0;
   for (const NegativeKind& kind : outcome.kinds) {
     EXPECT_EQ(kind.accepted_wrong, 0U) << kind.name;
