@@ -22,7 +22,6 @@ constexpr Duration kCountInterval = std::chrono::milliseconds(500);
 constexpr Duration kQuietAfter = std::chrono::seconds(3);
 // Who is silent for so long maps no more, as far as anybody can tell: its map is matched as it is.
 constexpr Duration kGoneAfter = std::chrono::seconds(30);
-constexpr double kPathStepM = 0.05;
 constexpr std::size_t kMaxPathPoints = 100'000;
 
 }  // namespace
@@ -66,13 +65,15 @@ void Coordinator::step() {
   link_.measure(now, roster_.present(now).size());
   exchange_.step(now, clock_.wall_now(), roster_, store_, link_);
   note_changes(now);
-  count_known_cells(now);
-  take_outcome(now);
-  match_next();
+  if (!settings_.only_listens) {  // who decides nothing needs nothing to decide by
+    count_known_cells(now);
+    take_outcome(now);
+    match_next();
+  }
   for (const TileIndex tile : common_map_.update(store_)) {
     if (map_listener_) map_listener_(tile);
   }
-  if (now >= status_due_) {
+  if (!settings_.only_listens && now >= status_due_) {
     status_due_ = now + kStatusInterval;
     wire::AgentStatus own = status();
     own.envelope = status_stamper_.next(clock_.wall_now());

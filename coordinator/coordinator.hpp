@@ -91,7 +91,8 @@ struct MergeRecord {
 class Coordinator {
  public:
   using Path =
-      std::vector<Eigen::Vector2d>;  ///< positions in the layer's map frame, at least 5 cm apart
+      std::vector<Eigen::Vector2d>;  ///< positions in the layer's map frame, kPathStepM apart
+  static constexpr double kPathStepM = 0.05;
 
   Coordinator(CoordinatorSettings settings, CoordinatorChannels channels, MatchWorker& worker,
               const Clock& clock);

@@ -1,8 +1,8 @@
 #include "common/sharing/alert_list.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <limits>
+#include <map>
+#include <utility>
 
 #include "common/base/ids.hpp"
 #include "common/wire/limits.hpp"
@@ -51,26 +51,45 @@ bool has_answered(const wire::Alert& alert, const std::string& agent_id) {
 Result<AlertList::Entry*> AlertList::room_for(const wire::Alert& sample, SteadyTime now) {
   const AlertKey key{sample.issuer_id, sample.alert_id};
   if (const auto found = entries_.find(key); found != entries_.end()) return &found->second;
-  const auto first = entries_.lower_bound({key.first, 0});
-  const auto behind = entries_.upper_bound({key.first, std::numeric_limits<std::uint32_t>::max()});
-  const auto lot = static_cast<std::size_t>(std::distance(first, behind));
-  if (lot >= kMostPerIssuer || entries_.size() >= kMost) {
-    // What is over makes room for what is not.
-    const auto over = std::find_if(
-        lot >= kMostPerIssuer ? first : entries_.begin(),
-        lot >= kMostPerIssuer ? behind : entries_.end(),
-        [](const auto& held) { return held.second.alert.state == wire::AlertState::cleared; });
-    if (over == (lot >= kMostPerIssuer ? behind : entries_.end())) {
-      return fail(ErrorCode::unsupported, "alert {}/{}: more than {} of one issuer, or {} in all",
-                  key.first, key.second, kMostPerIssuer, kMost);
+  const std::string& sender = sample.envelope.sender_id;
+  const auto of_sender = std::ranges::count_if(
+      entries_, [&](const auto& held) { return held.second.brought_by == sender; });
+  if (static_cast<std::size_t>(of_sender) >= kMostPerSender || entries_.size() >= kMost) {
+    const auto gone = dispensable_for(sender);
+    if (gone == entries_.end()) {
+      return fail(ErrorCode::unsupported, "alert {}/{}: more than {} from {}, or {} in all",
+                  key.first, key.second, kMostPerSender, sender, kMost);
     }
-    entries_.erase(over);
+    entries_.erase(gone);
   }
   Entry entry;
   entry.alert.issuer_id = key.first;
   entry.alert.alert_id = key.second;
   entry.heard_at = now;
+  entry.brought_by = sender;
   return &entries_.emplace(key, std::move(entry)).first->second;
+}
+
+AlertList::Entries::iterator AlertList::dispensable_for(const std::string& sender) {
+  std::map<std::string, std::size_t> places;
+  for (const auto& [key, held] : entries_) ++places[held.brought_by];
+  const auto greediest =
+      std::ranges::max_element(places, {}, [](const auto& brought) { return brought.second; });
+  // At its own bound, a sender finds room among its own; in a full list, with who takes the most.
+  const bool own = places[sender] >= kMostPerSender;
+  const std::string loser = own ? sender : greediest->first;
+  const bool is_fair = !own && greediest->second > places[sender] + 1;
+  auto gone = entries_.end();
+  for (auto held = entries_.begin(); held != entries_.end(); ++held) {
+    const Entry& entry = held->second;
+    // What is over makes room for what is not.
+    if (entry.alert.state == wire::AlertState::cleared && (!own || entry.brought_by == sender))
+      return held;
+    if (!is_fair || entry.brought_by != loser) continue;
+    const auto worth = [](const Entry& of) { return std::pair(of.is_told, of.heard_at); };
+    if (gone == entries_.end() || worth(entry) < worth(gone->second)) gone = held;
+  }
+  return gone;
 }
 
 Result<bool> AlertList::apply(const wire::Alert& sample, bool from_command, SteadyTime now) {
@@ -87,6 +106,7 @@ Result<bool> AlertList::apply(const wire::Alert& sample, bool from_command, Stea
       held.subject_id = sample.subject_id;
       held.text = sample.text;
       entry.is_told = is_news = true;
+      entry.brought_by = sender;
     }
     for (const auto& name : sample.acknowledged_by) is_news |= add_answer(held, name);
     is_news |= raise_state(held, sample.state);

@@ -11,6 +11,9 @@ using std::chrono::steady_clock;
 constexpr Duration kTurn = std::chrono::milliseconds(20);
 // On the way to another time the picture would cost more than the way.
 constexpr Duration kPictureInterval = std::chrono::seconds(1);
+// What is played whole before a time that was asked for, so that it looks as if it had been played
+// to: who was just heard, what waits.
+constexpr Duration kPlayedWhole = std::chrono::seconds(5);
 
 }  // namespace
 
@@ -66,7 +69,7 @@ Result<void> RecordingPlayer::follow(const dashboard::Steer& steer) {
   anchor();
   if (!steer.to) return {};
   target_ = std::clamp(*steer.to, Duration{0}, timeline_.length);
-  if (*target_ >= replay_->elapsed()) return {};
+  if (*target_ >= replay_->read_so_far()) return {};
   auto again = open_();
   if (!again) return forward_error(again);
   screen_.look_at((*again)->coordinator());
@@ -87,7 +90,7 @@ bool RecordingPlayer::is_due(SteadyTime now) const {
 Result<void> RecordingPlayer::play(SteadyTime turn_ends) {
   for (SteadyTime now = steady_clock::now(); now < turn_ends && is_due(now);
        now = steady_clock::now()) {
-    const auto more = replay_->step();
+    const auto more = go_on();
     if (!more) return forward_error(more);
     is_at_end_ = !*more;
     if (is_at_end_ && !timeline_.is_mission_live) screen_.refresh();
@@ -100,8 +103,18 @@ Result<void> RecordingPlayer::play(SteadyTime turn_ends) {
   return {};
 }
 
+Result<bool> RecordingPlayer::go_on() {
+  if (replay_->is_on_shortcut() || (target_ && *target_ > replay_->elapsed() + 2 * kPlayedWhole)) {
+    const Duration to = target_.value_or(replay_->read_so_far()) - kPlayedWhole;
+    auto more = replay_->take_shortcut(replay_->first() + to);
+    if (!more) return more;
+    return true;
+  }
+  return replay_->step();
+}
+
 void RecordingPlayer::show() {
-  timeline_.at = std::min(replay_->elapsed(), timeline_.length);
+  timeline_.at = std::min(replay_->read_so_far(), timeline_.length);
   timeline_.is_seeking = target_.has_value();
   screen_.show(timeline_);
   const SteadyTime now = steady_clock::now();

@@ -11,8 +11,8 @@
 namespace lifeline {
 
 /// Plays a recording into a page's feed, and follows what people ask for there: stop, another
-/// speed, another time. Goes back by playing anew from the beginning, as fast as it goes: the same
-/// code, the same picture. One owner, not thread-safe.
+/// speed, another time. Goes far by a shortcut (Replay::take_shortcut), and back from the beginning
+/// anew: the same code, the same picture. One owner, not thread-safe.
 class RecordingPlayer {
  public:
   /// The same recording from its beginning.
@@ -39,6 +39,8 @@ class RecordingPlayer {
   [[nodiscard]] Result<void> play(SteadyTime turn_ends);
   [[nodiscard]] Result<void> measure();
   [[nodiscard]] bool is_due(SteadyTime now) const;
+  /// A step, or a piece of a shortcut; false at the end.
+  [[nodiscard]] Result<bool> go_on();
   void anchor();
   void show();
 

@@ -19,6 +19,10 @@ constexpr Duration kIdleStep = std::chrono::milliseconds(500);
 constexpr Duration kLongestSilence = std::chrono::seconds(30);
 // What was recorded within so short a time is heard in one step.
 constexpr Duration kAtOnce = std::chrono::milliseconds(10);
+// On a shortcut: how much is read or played before somebody is asked again, and how far apart the
+// coordinator's steps are.
+constexpr int kReadAtOnce = 250;
+constexpr Duration kStride = std::chrono::seconds(1);
 
 /// The JSON object of a message of kRecordingTopic; discarded where it is none.
 nlohmann::json note_of(const bag::Message& message) {
@@ -176,18 +180,78 @@ void Replay::advance(Timestamp to) {
 }
 
 void Replay::feed(const bag::Message& message) {
+  const auto heard = decode(message);
+  if (!heard) return;
+  if (listener_) listener_(*heard, message.stamp);
+  channels_.feed(*heard);
+}
+
+std::optional<Heard> Replay::decode(const bag::Message& message) {
   ++messages_;
-  if (message.topic.name == kRecordingTopic) return take_note(message);
-  const auto heard = to_heard(message);
-  if (!heard) {
-    if (refused_++ == 0)
-      spdlog::warn("{}: a message of {} is left out: {}", source_->target(), message.topic.name,
-                   heard.error().text);
-    return;
+  if (message.topic.name == kRecordingTopic) {
+    take_note(message);
+    return std::nullopt;
   }
-  if (!*heard) return;
-  if (listener_) listener_(**heard, message.stamp);
-  channels_.feed(**heard);
+  auto heard = to_heard(message);
+  if (heard) return *std::move(heard);
+  if (refused_++ == 0)
+    spdlog::warn("{}: a message of {} is left out: {}", source_->target(), message.topic.name,
+                 heard.error().text);
+  return std::nullopt;
+}
+
+Duration Replay::read_so_far() const {
+  return (shortcut_ ? std::max(shortcut_->wall, clock_.wall) : clock_.wall) - first_;
+}
+
+Result<bool> Replay::take_shortcut(Timestamp to) {
+  if (!shortcut_)
+    shortcut_ = Shortcut{Digest(coordinator_->paths()), 0, clock_.wall, clock_.steady, false};
+  if (!shortcut_->is_read) {
+    auto read = read_ahead(to);
+    if (!read) return read;
+    shortcut_->is_read = *read;
+    return true;
+  }
+  if (play_digest()) return true;
+  clock_.wall = shortcut_->wall;
+  clock_.steady = shortcut_->steady;
+  coordinator_->step();
+  shortcut_.reset();
+  return false;
+}
+
+Result<bool> Replay::read_ahead(Timestamp to) {
+  for (int i = 0; i < kReadAtOnce; ++i) {
+    if (!next_) {
+      auto next = source_->next();
+      if (!next) return forward_error(next);
+      next_ = *std::move(next);
+    }
+    if (!next_ || next_->stamp >= to) return true;
+    const Duration ahead = std::max(next_->stamp - shortcut_->wall, Duration{0});
+    shortcut_->wall += ahead;
+    shortcut_->steady += std::min(ahead, kLongestSilence);
+    if (auto heard = decode(*next_))
+      shortcut_->digest.take(shortcut_->wall, shortcut_->steady, *std::move(heard));
+    next_.reset();
+  }
+  return false;
+}
+
+bool Replay::play_digest() {
+  const auto& entries = shortcut_->digest.entries();
+  std::size_t& at = shortcut_->played;
+  while (at < entries.size() && !entries[at].heard) ++at;
+  if (at == entries.size()) return false;
+  const Timestamp until = entries[at].wall + kStride;
+  for (; at < entries.size() && entries[at].wall < until; ++at) {
+    clock_.wall = entries[at].wall;
+    clock_.steady = entries[at].steady;
+    if (entries[at].heard) channels_.feed(*entries[at].heard);
+  }
+  coordinator_->step();
+  return true;
 }
 
 void Replay::take_note(const bag::Message& message) {

@@ -8,6 +8,7 @@
 #include "common/bag/message_source.hpp"
 #include "common/recording/heard.hpp"
 #include "coordinator/coordinator.hpp"
+#include "coordinator/recording/digest.hpp"
 #include "coordinator/recording/replay_channels.hpp"
 
 namespace lifeline {
@@ -41,7 +42,14 @@ class Replay {
   /// a mission that goes on there may be more at the next call.
   [[nodiscard]] Result<bool> step();
 
-  /// Hears each sample before the coordinator does.
+  /// Plays on towards `to`, a short while at a time, leaving out what something before `to` has
+  /// replaced: the same state much sooner, and nothing in between. False once it is there, or at
+  /// the end. Until then neither step() nor an earlier `to`.
+  [[nodiscard]] Result<bool> take_shortcut(Timestamp to);
+  /// A shortcut was begun and is not at its end.
+  [[nodiscard]] bool is_on_shortcut() const { return shortcut_.has_value(); }
+
+  /// Hears each sample before the coordinator does, but on shortcuts.
   using Listener = std::function<void(const Heard&, Timestamp)>;
   void set_listener(Listener listener) { listener_ = std::move(listener); }
 
@@ -52,6 +60,8 @@ class Replay {
   [[nodiscard]] Result<bag::MessageSource::Span> span() const;
   /// How far into the recording.
   [[nodiscard]] Duration elapsed() const { return clock_.wall - first_; }
+  /// How far it has read, which on a shortcut is further: from here it only goes on.
+  [[nodiscard]] Duration read_so_far() const;
   [[nodiscard]] Timestamp first() const { return first_; }
   [[nodiscard]] Timestamp now() const { return clock_.wall; }
   [[nodiscard]] SteadyTime steady_now() const { return clock_.steady; }
@@ -72,6 +82,12 @@ class Replay {
   explicit Replay(std::unique_ptr<bag::MessageSource> source) : source_(std::move(source)) {}
   [[nodiscard]] Result<void> begin();
   void take_note(const bag::Message& message);
+  /// The sample of a message of ours; nothing where it is none, or cannot be decoded.
+  [[nodiscard]] std::optional<Heard> decode(const bag::Message& message);
+  /// True: all before `to` is in the shortcut's digest.
+  [[nodiscard]] Result<bool> read_ahead(Timestamp to);
+  /// False: the digest has been played.
+  bool play_digest();
   void feed(const bag::Message& message);
   void advance(Timestamp to);
 
@@ -84,6 +100,14 @@ class Replay {
   std::unique_ptr<Coordinator> coordinator_;
   Listener listener_;
   std::optional<bag::Message> next_;
+  struct Shortcut {
+    Digest digest;
+    std::size_t played = 0;  ///< of its entries
+    Timestamp wall{};        ///< of what was read last ...
+    SteadyTime steady{};     ///< ... by both clocks
+    bool is_read = false;
+  };
+  std::optional<Shortcut> shortcut_;
   std::size_t messages_ = 0, refused_ = 0;
 };
 

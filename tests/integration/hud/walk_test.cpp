@@ -59,7 +59,7 @@ TEST_P(HudOnAWalk, TheWayOutIsKnownAndLeadsOverFloorThatWasSeen) {
     EXPECT_FALSE(is_off_the_floor(core.map(), way.points)) << "after scan " << scan;
   }
   EXPECT_GE(looks, 50);
-  // The rest by the own trail, which crosses what the map takes for walls.
+  // The rest by the own trail, which leads through doorways that the map closed (decision 0907).
   EXPECT_GE(free_ways, looks / 5) << "of " << looks;
 }
 

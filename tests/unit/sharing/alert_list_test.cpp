@@ -113,13 +113,77 @@ TEST_F(AlertListTest, WhatIsHostileIsRefused) {
   EXPECT_TRUE(list_.entries().empty());
 }
 
-TEST_F(AlertListTest, AFloodOfOneIssuerLeavesRoomForTheOthers) {
-  for (std::uint32_t id = 0; id < 2 * AlertList::kMostPerIssuer; ++id)
-    (void)list_.apply(alert("alpha", id), false, {});
-  EXPECT_EQ(list_.entries().size(), AlertList::kMostPerIssuer);
-  auto other = alert("bravo");
-  other.issuer_id = "bravo";
-  EXPECT_TRUE(list_.apply(other, false, {}));
+/// As many alerts as `count` tells, of the issuer's own, from `first_id` on.
+void flood(AlertList& list, const std::string& issuer, std::size_t count, SteadyTime now = {}) {
+  for (std::size_t id = 0; id < count; ++id) {
+    auto sample = alert(issuer, static_cast<std::uint32_t>(id));
+    sample.issuer_id = issuer;
+    (void)list.apply(sample, false, now);
+  }
+}
+
+std::size_t told_by(const AlertList& list, const std::string& issuer) {
+  return static_cast<std::size_t>(std::ranges::count_if(list.entries(), [&](const auto& held) {
+    return held.first.first == issuer && held.second.is_told;
+  }));
+}
+
+TEST_F(AlertListTest, AFloodOfOneSenderLeavesRoomForTheOthers) {
+  flood(list_, "alpha", 2 * AlertList::kMostPerSender);
+  EXPECT_EQ(list_.entries().size(), AlertList::kMostPerSender);
+  flood(list_, "bravo", 1);
+  EXPECT_EQ(told_by(list_, "bravo"), 1U);
+}
+
+TEST_F(AlertListTest, AMaydayFindsRoomInAListThatAFewHaveFilled) {
+  constexpr int kFlooders = 10;  // more than it takes
+  for (int i = 0; i < kFlooders; ++i)
+    flood(list_, "flood-" + std::to_string(i), AlertList::kMostPerSender);
+  ASSERT_EQ(list_.entries().size(), AlertList::kMost);
+  put(alert("alpha"));
+  ASSERT_NE(list_.find(key_), nullptr);
+  for (int i = 0; i < kFlooders; ++i)
+    flood(list_, "flood-" + std::to_string(i), 2 * AlertList::kMostPerSender);
+  EXPECT_NE(list_.find(key_), nullptr) << "and keeps it";
+  EXPECT_EQ(list_.entries().size(), AlertList::kMost);
+}
+
+TEST_F(AlertListTest, WhoAnswersWhatNobodyRaisedTakesNobodysPlace) {
+  for (std::uint32_t id = 0; id < 2 * AlertList::kMost; ++id) {
+    auto forged = answer("bravo");
+    forged.alert_id = id + 1000;
+    (void)list_.apply(forged, false, {});
+  }
+  EXPECT_EQ(list_.entries().size(), AlertList::kMostPerSender);
+  flood(list_, "alpha", AlertList::kMostPerSender);
+  EXPECT_EQ(told_by(list_, "alpha"), AlertList::kMostPerSender);
+}
+
+TEST_F(AlertListTest, InAFullListAnswersToTheUnheardGoBeforeAlertsAndTheOldestFirst) {
+  for (std::uint32_t id = 0; id < AlertList::kMostPerSender / 2; ++id) {
+    auto forged = answer("flood-0");
+    forged.alert_id = id + 1000;
+    (void)list_.apply(forged, false, SteadyTime{std::chrono::seconds(9)});
+  }
+  flood(list_, "flood-0", AlertList::kMostPerSender / 2);
+  for (int i = 1; i < 8; ++i)
+    flood(list_, "flood-" + std::to_string(i), AlertList::kMostPerSender - 1);
+  for (int i = 0; i < 7; ++i) flood(list_, "rest-" + std::to_string(i), 1);
+  ASSERT_EQ(list_.entries().size(), AlertList::kMost);
+  flood(list_, "charlie", 1);
+  EXPECT_EQ(told_by(list_, "charlie"), 1U);
+  EXPECT_EQ(told_by(list_, "flood-0"), AlertList::kMostPerSender / 2);
+}
+
+TEST_F(AlertListTest, WhatIsOverMakesRoomFirst) {
+  for (int i = 0; i < 8; ++i) flood(list_, "flood-" + std::to_string(i), AlertList::kMostPerSender);
+  auto over = alert("flood-3", 7);
+  over.issuer_id = "flood-3";
+  over.state = wire::AlertState::cleared;
+  put(over);
+  put(alert("alpha"));
+  EXPECT_NE(list_.find(key_), nullptr);
+  EXPECT_EQ(list_.find({"flood-3", 7}), nullptr);
 }
 
 }  // namespace

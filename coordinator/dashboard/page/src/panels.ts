@@ -4,7 +4,7 @@ import type { Find, Merge } from "./dashboard_pb";
 import { button, element, KeyedList, setAttribute, setText } from "./dom";
 import { markCanvas } from "./marks";
 import type { Member, State } from "./state";
-import { decimals, duration, say, type Word } from "./words";
+import { currentLanguage, decimals, duration, say, type Word } from "./words";
 
 const STATES: Word[] = ["starting", "tracking", "weak", "placeLost", "finished"];
 const HEALTH: Word[] = ["good", "degraded", "silentSensor", "failed"];
@@ -121,7 +121,7 @@ export class FindsPanel {
     const parts = [
       say("sure2", Math.round(100 * find.confidence)),
       say("seenBy", find.seenBy.join(", ")),
-      new Date(Number(find.lastSeenAtNs / 1000000n)).toLocaleTimeString(),
+      new Date(Number(find.lastSeenAtNs / 1000000n)).toLocaleTimeString(currentLanguage(), { hour12: false }),
       find.floor ? say("floor", find.floor) : "",
     ];
     setText(row.querySelector(".detail")!, parts.filter(Boolean).join(" · "));
