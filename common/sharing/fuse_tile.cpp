@@ -27,64 +27,107 @@ std::int64_t round_divide(std::int64_t value, std::int64_t divisor) {
   return value >= 0 ? (value + divisor / 2) / divisor : -((-value + divisor / 2) / divisor);
 }
 
+/// Four cells of a layer: (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1).
+using FourCells = std::array<QuantisedCell, 4>;
+
 // Remembers the last tile looked up: neighbouring cells mostly lie in the same one.
 class LayerReader {
  public:
   explicit LayerReader(const ReplicaLayer& layer) : layer_(layer) {}
 
-  QuantisedCell at(std::int64_t x, std::int64_t y) {
+  FourCells four_at(std::int64_t x, std::int64_t y) {
     const CellIndex cell{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
-    const TileIndex tile = tile_of(cell);
-    if (!looked_up_ || tile != tile_) {
-      const auto found = layer_.find(tile);
-      cells_ = found == layer_.end() ? nullptr : found->second.cells.get();
-      tile_ = tile;
-      looked_up_ = true;
+    const std::size_t offset = offset_in_tile(cell);
+    if (offset % kTileSide == kTileSide - 1 || offset / kTileSide == kTileSide - 1) {
+      return {at(cell), at({cell.x + 1, cell.y}), at({cell.x, cell.y + 1}),
+              at({cell.x + 1, cell.y + 1})};
     }
-    return cells_ == nullptr ? QuantisedCell{} : (*cells_)[offset_in_tile(cell)];
+    look_up(tile_of(cell));
+    if (cells_ == nullptr) return {};
+    const auto corner = cells_->begin() + static_cast<std::ptrdiff_t>(offset);
+    return {corner[0], corner[1], corner[kTileSide], corner[kTileSide + 1]};
   }
 
  private:
+  QuantisedCell at(CellIndex cell) {
+    look_up(tile_of(cell));
+    return cells_ == nullptr ? QuantisedCell{} : (*cells_)[offset_in_tile(cell)];
+  }
+  void look_up(TileIndex tile) {
+    if (looked_up_ && tile == tile_) return;
+    const auto found = layer_.find(tile);
+    cells_ = found == layer_.end() ? nullptr : found->second.cells.get();
+    tile_ = tile;
+    looked_up_ = true;
+  }
+
   const ReplicaLayer& layer_;
   TileIndex tile_{};
   const QuantisedTile* cells_ = nullptr;
   bool looked_up_ = false;
 };
 
-// Adds the layer's value at `p` (in the layer's frame) to one cell's sums.
-void add_sample(LayerReader& layer, PointUm p, std::int64_t cell_um, std::int64_t& weighted_tsd,
-                std::int64_t& weight) {
-  const std::int64_t from_centre_x = p.x - cell_um / 2, from_centre_y = p.y - cell_um / 2;
-  const std::int64_t x = floor_divide(from_centre_x, cell_um);
-  const std::int64_t y = floor_divide(from_centre_y, cell_um);
-  const std::int64_t fx = (from_centre_x - x * cell_um) * kFractionOne / cell_um;
-  const std::int64_t fy = (from_centre_y - y * cell_um) * kFractionOne / cell_um;
+/// One coordinate of a point that moves by no more than a cell at a time, as a number of whole
+/// cells and the rest: without a division for each point.
+class CellWalk {
+ public:
+  CellWalk(std::int64_t at_um, std::int64_t cell_um)
+      : cell_um_(cell_um), reciprocal_((std::int64_t{1} << kReciprocalBits) / cell_um) {
+    cell_ = floor_divide(at_um, cell_um);
+  }
+  void move_to(std::int64_t at_um) {
+    rest_um_ = at_um - cell_ * cell_um_;
+    for (; rest_um_ < 0; rest_um_ += cell_um_) --cell_;
+    for (; rest_um_ >= cell_um_; rest_um_ -= cell_um_) ++cell_;
+  }
+  [[nodiscard]] std::int64_t cell() const { return cell_; }
+  /// The rest in parts of kFractionOne of a cell, cut off.
+  [[nodiscard]] std::int64_t fraction() const {
+    const std::int64_t parts = rest_um_ * kFractionOne;
+    const std::int64_t fraction = parts * reciprocal_ >> kReciprocalBits;  // or one less
+    return (fraction + 1) * cell_um_ <= parts ? fraction + 1 : fraction;
+  }
+
+ private:
+  // rest_um_ * kFractionOne * reciprocal_ stays below 2^(kReciprocalBits + kFractionBits).
+  static constexpr int kReciprocalBits = 48;
+  std::int64_t cell_um_, reciprocal_;
+  std::int64_t cell_ = 0, rest_um_ = 0;
+};
+
+// Adds the layer's value between the four cells around a point to one cell's sums.
+void add_sample(const FourCells& cells, std::int64_t fx, std::int64_t fy,
+                std::int64_t& weighted_tsd, std::int64_t& weight) {
   const bool right = fx >= kFractionOne / 2, upper = fy >= kFractionOne / 2;
-  if (layer.at(x + (right ? 1 : 0), y + (upper ? 1 : 0)).weight == 0) return;
-  const auto add = [&](std::int64_t dx, std::int64_t dy, std::int64_t share) {
-    const QuantisedCell cell = layer.at(x + dx, y + dy);
-    weighted_tsd += share * cell.weight * cell.tsd;
-    weight += share * cell.weight;
-  };
-  add(0, 0, (kFractionOne - fx) * (kFractionOne - fy));
-  add(1, 0, fx * (kFractionOne - fy));
-  add(0, 1, (kFractionOne - fx) * fy);
-  add(1, 1, fx * fy);
+  if (cells[(right ? 1U : 0U) + (upper ? 2U : 0U)].weight == 0) return;
+  const std::int64_t gx = kFractionOne - fx, gy = kFractionOne - fy;
+  const std::array<std::int64_t, 4> shares{gx * gy, fx * gy, gx * fy, fx * fy};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    weighted_tsd += shares[i] * cells[i].weight * cells[i].tsd;
+    weight += shares[i] * cells[i].weight;
+  }
 }
 
 void add_member(TileIndex index, const FusedMember& member, std::int64_t cell_um, Sums& sums) {
   LayerReader layer(*member.layer);
   const auto& T = member.T_fused_layer;
   const CellIndex first = first_cell(index);
+  const std::int64_t dx = std::int64_t{first.x} * cell_um + cell_um / 2 - T.x_um;
   std::size_t offset = 0;
   for (int row = 0; row < kTileSide; ++row) {
     const std::int64_t dy = (std::int64_t{first.y} + row) * cell_um + cell_um / 2 - T.y_um;
+    // p_layer = R^T (p_fused - t), from cell to cell of the row; the shift of a negative number
+    // rounds down since C++20. Counted from the centre of the layer's first cell.
+    std::int64_t x_q30 = T.cos_q30 * dx + T.sin_q30 * dy + kRoundQ30;
+    std::int64_t y_q30 = T.cos_q30 * dy - T.sin_q30 * dx + kRoundQ30;
+    CellWalk x((x_q30 >> 30) - cell_um / 2, cell_um), y((y_q30 >> 30) - cell_um / 2, cell_um);
     for (int column = 0; column < kTileSide; ++column, ++offset) {
-      const std::int64_t dx = (std::int64_t{first.x} + column) * cell_um + cell_um / 2 - T.x_um;
-      // p_layer = R^T (p_fused - t); the shift of a negative number rounds down since C++20.
-      const PointUm p_layer{(T.cos_q30 * dx + T.sin_q30 * dy + kRoundQ30) >> 30,
-                            (T.cos_q30 * dy - T.sin_q30 * dx + kRoundQ30) >> 30};
-      add_sample(layer, p_layer, cell_um, sums.weighted_tsd[offset], sums.weight[offset]);
+      x.move_to((x_q30 >> 30) - cell_um / 2);
+      y.move_to((y_q30 >> 30) - cell_um / 2);
+      add_sample(layer.four_at(x.cell(), y.cell()), x.fraction(), y.fraction(),
+                 sums.weighted_tsd[offset], sums.weight[offset]);
+      x_q30 += T.cos_q30 * cell_um;
+      y_q30 -= T.sin_q30 * cell_um;
     }
   }
 }
