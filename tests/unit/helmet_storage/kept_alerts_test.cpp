@@ -77,7 +77,7 @@ TEST_F(DamagedAlerts, AreTakenForADamagedState) {
 
 TEST_F(DamagedAlerts, MoreThanAHelmetMayHaveAreRefused) {
   proto::KeptAlerts kept;
-  for (std::uint32_t i = 0; i < sharing::AlertList::kMostPerIssuer + 1; ++i)
+  for (std::uint32_t i = 0; i < sharing::AlertList::kMostPerSender + 1; ++i)
     kept.add_alerts()->set_alert_id(i);
   EXPECT_FALSE(read(kept.SerializeAsString()));
 }
