@@ -64,22 +64,22 @@ inline IntLanes joined(IntLanes weight, IntLanes tsd) {
 }
 
 inline IntLanes are_hidden_sides(const CellParts& was, const CellParts& is) {
-  return (is.tsd < -TsdCell::kTsdOne * 2 / 5) & (was.tsd > 0) & (was.weight > 4 * is.weight);
+  return (is.tsd < kDeepBehind) & (was.tsd > 0) & (was.weight > 4 * is.weight);
 }
 
-/// updated(), four cells at a time.
+/// updated(), four cells at a time. Equal distances need no case of their own: they neither
+/// contradict nor hide each other, and their mean is what they are.
 inline IntLanes updated_four(IntLanes cells, IntLanes seen, std::int32_t weight_cap) {
   const CellParts was(cells), is(seen);
   const IntLanes worn = was.weight * is.weight / (4 * TsdCell::kWeightOne);
   const IntLanes contradicts = magnitude(is.tsd - was.tsd) > kContradiction;
-  const IntLanes weight = choose(contradicts & (is.tsd != was.tsd), was.weight - worn, was.weight);
+  const IntLanes weight = choose(contradicts, was.weight - worn, was.weight);
   const IntLanes total = weight + is.weight, sum = was.tsd * weight + is.tsd * is.weight;
   const IntLanes half = total / 2, both = was.known & is.known;
   const IntLanes mean =
       quotients(sum + choose(sum < 0, -half, half), choose(both, total, both + 1));
   const IntLanes capped = choose(total > weight_cap, IntLanes{} + weight_cap, total);
-  const IntLanes merged = choose((is.tsd != was.tsd) & are_hidden_sides(was, is), cells,
-                                 joined(capped, choose(is.tsd == was.tsd, was.tsd, mean)));
+  const IntLanes merged = choose(are_hidden_sides(was, is), cells, joined(capped, mean));
   return choose(is.known, choose(was.known, merged, seen), cells);
 }
 
@@ -87,7 +87,7 @@ inline IntLanes updated_four(IntLanes cells, IntLanes seen, std::int32_t weight_
 inline IntLanes updated_four_densely(IntLanes cells, IntLanes seen, std::int32_t weight_cap) {
   const CellParts was(cells), is(seen);
   const IntLanes contradicts = was.known & is.known &
-                               (magnitude(is.tsd - was.tsd) > TsdCell::kTsdOne / 2) &
+                               (magnitude(is.tsd - was.tsd) > kDenseContradiction) &
                                ~are_hidden_sides(was, is);
   const IntLanes lost = was.weight * is.weight * 5 / (8 * TsdCell::kWeightOne);
   const IntLanes left = was.weight - choose(lost > 1, lost, IntLanes{} + 1);

@@ -23,10 +23,14 @@ struct PushConfig {
 /// has changed, and the old one loses weight with each such observation.
 inline constexpr int kContradiction = TsdCell::kTsdOne * 3 / 4;
 
+/// The same among dense looks: half of the range of one side.
+inline constexpr int kDenseContradiction = TsdCell::kTsdOne / 2;
+/// Deep behind a surface.
+inline constexpr int kDeepBehind = -TsdCell::kTsdOne * 2 / 5;
+
 /// Does `seen` lie deep behind a surface, where `cell` was seen free from its own side?
 [[nodiscard]] inline bool is_hidden_side(TsdCell cell, TsdCell seen) {
-  constexpr int kDeep = -TsdCell::kTsdOne * 2 / 5;
-  return seen.tsd < kDeep && cell.tsd > 0 && cell.weight > 4 * seen.weight;
+  return seen.tsd < kDeepBehind && cell.tsd > 0 && cell.weight > 4 * seen.weight;
 }
 
 /// Eq. 2 and 3 for one cell: the running mean of `cell` and `seen`, both weighted, the weight
@@ -67,7 +71,7 @@ enum class Looks {
 /// otherwise, and what is seen again in between, like glass, stays where it is.
 [[nodiscard]] inline TsdCell updated_densely(TsdCell cell, TsdCell seen, int weight_cap) {
   const bool contradicts = cell.known() && seen.known() &&
-                           std::abs(seen.tsd - cell.tsd) > TsdCell::kTsdOne / 2 &&
+                           std::abs(seen.tsd - cell.tsd) > kDenseContradiction &&
                            !is_hidden_side(cell, seen);
   if (!contradicts) return updated(cell, seen, weight_cap);
   const int lost = cell.weight * seen.weight * 5 / (8 * TsdCell::kWeightOne);
