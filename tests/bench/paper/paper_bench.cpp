@@ -65,7 +65,7 @@ int run_paper_bench(std::span<const char* const> arguments) {
            std::uint64_t{10'000});
   line.add("--duration", options.duration_s, "of each walk, seconds", 10.0, 3600.0);
   line.add("--only", options.only, "which of a (doors), b (timing), c (update)");
-  line.add("--experiment", options.experiment, "one of 1 to 4; all with 0", 0, 4);
+  line.add("--experiment", options.experiment, "one of 1 to 4; all without it", 1, 4);
   if (const auto status = line.parse(arguments)) return *status;
   if (options.only.empty() || options.only.find_first_not_of("abc") != std::string::npos) {
     fmt::print(stderr, "lifeline bench paper: --only {}: give one or more of a, b and c\n",
