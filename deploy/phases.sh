@@ -25,12 +25,12 @@ print_phases() {
   done
 }
 
-# How many compilers to run at once: one a core, but no more than memory allows (PCL takes 1.5 GB).
+# How many compilers to run at once: one a core, but no more than memory allows (a compiler takes up to 2 GB).
 parallel_jobs() {
   local cores memory_kb fitting
   cores="$(nproc)"
   memory_kb="$(awk '/^MemAvailable:/ {print $2}' /proc/meminfo)"
-  fitting=$((memory_kb / 1500000))
+  fitting=$((memory_kb / 2000000))
   ((fitting < 1)) && fitting=1
   echo $((cores < fitting ? cores : fitting))
 }

@@ -45,9 +45,10 @@ TEST(PaperExperiments, OursGetsThroughEveryDoorWithTheSmallestHeadingError) {
 
   const auto value = figures(study.rows());
   EXPECT_EQ(value.at("a, experiment 1, ours: walks that survive every door"), 100.0);
-  const char* heading = ": heading error rms, median";
-  EXPECT_LT(value.at(std::string("a, experiment 1, ours") + heading),
-            value.at(std::string("a, experiment 1, conventional") + heading));
+  const auto heading_error = [&value](const char* matcher) {
+    return value.at(fmt::format("a, experiment 1, {}: heading error rms, median", matcher));
+  };
+  EXPECT_LT(heading_error("ours"), heading_error("conventional"));
   EXPECT_GT(std::filesystem::file_size(folder.path() / "a.png"), 5'000U);
 }
 
