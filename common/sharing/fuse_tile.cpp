@@ -27,107 +27,120 @@ std::int64_t round_divide(std::int64_t value, std::int64_t divisor) {
   return value >= 0 ? (value + divisor / 2) / divisor : -((-value + divisor / 2) / divisor);
 }
 
-/// Four cells of a layer: (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1).
-using FourCells = std::array<QuantisedCell, 4>;
+/// The smallest and the largest of a point's coordinates over a tile, which a linear map takes at
+/// the tile's corners.
+struct Reach {
+  std::int64_t low, high;
+};
 
-// Remembers the last tile looked up: neighbouring cells mostly lie in the same one.
-class LayerReader {
+Reach reach(std::int64_t start, std::int64_t along_row, std::int64_t along_column) {
+  const auto [low, high] = std::minmax(
+      {start, start + along_row, start + along_column, start + along_row + along_column});
+  return {low, high};
+}
+
+/// A rectangle of a layer's cells, side by side whatever tiles they stand in; unknown where the
+/// layer holds no tile.
+class Patch {
  public:
-  explicit LayerReader(const ReplicaLayer& layer) : layer_(layer) {}
-
-  FourCells four_at(std::int64_t x, std::int64_t y) {
-    const CellIndex cell{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
-    const std::size_t offset = offset_in_tile(cell);
-    if (offset % kTileSide == kTileSide - 1 || offset / kTileSide == kTileSide - 1) {
-      return {at(cell), at({cell.x + 1, cell.y}), at({cell.x, cell.y + 1}),
-              at({cell.x + 1, cell.y + 1})};
+  Patch(const ReplicaLayer& layer, CellIndex low, CellIndex high)
+      : low_(low), width_(high.x - low.x + 1) {
+    const TileIndex first = tile_of(low), last = tile_of(high);
+    for (auto held = layer.lower_bound(first); held != layer.end() && held->first.x <= last.x;
+         ++held) {
+      if (held->first.y < first.y || held->first.y > last.y) continue;
+      cells_.resize(static_cast<std::size_t>(width_) *
+                    static_cast<std::size_t>(high.y - low.y + 1));
+      copy(held->first, *held->second.cells, high);
     }
-    look_up(tile_of(cell));
-    if (cells_ == nullptr) return {};
-    const auto corner = cells_->begin() + static_cast<std::ptrdiff_t>(offset);
-    return {corner[0], corner[1], corner[kTileSide], corner[kTileSide + 1]};
   }
+  [[nodiscard]] bool is_unknown() const { return cells_.empty(); }
+  [[nodiscard]] std::int64_t width() const { return width_; }
+  /// Row after row.
+  [[nodiscard]] const QuantisedCell* cells() const { return cells_.data(); }
 
  private:
-  QuantisedCell at(CellIndex cell) {
-    look_up(tile_of(cell));
-    return cells_ == nullptr ? QuantisedCell{} : (*cells_)[offset_in_tile(cell)];
-  }
-  void look_up(TileIndex tile) {
-    if (looked_up_ && tile == tile_) return;
-    const auto found = layer_.find(tile);
-    cells_ = found == layer_.end() ? nullptr : found->second.cells.get();
-    tile_ = tile;
-    looked_up_ = true;
+  void copy(TileIndex tile, const QuantisedTile& cells, CellIndex high) {
+    const CellIndex corner = first_cell(tile);
+    const int x0 = std::max(corner.x, low_.x), x1 = std::min(corner.x + kTileSide - 1, high.x);
+    const int y0 = std::max(corner.y, low_.y), y1 = std::min(corner.y + kTileSide - 1, high.y);
+    for (int y = y0; y <= y1; ++y) {
+      const auto from = cells.begin() + static_cast<std::ptrdiff_t>(offset_in_tile({x0, y}));
+      std::copy(from, from + (x1 - x0 + 1),
+                cells_.begin() + std::ptrdiff_t{y - low_.y} * width_ + (x0 - low_.x));
+    }
   }
 
-  const ReplicaLayer& layer_;
-  TileIndex tile_{};
-  const QuantisedTile* cells_ = nullptr;
-  bool looked_up_ = false;
+  CellIndex low_;
+  int width_;
+  std::vector<QuantisedCell> cells_;
 };
 
-/// One coordinate of a point that moves by no more than a cell at a time, as a number of whole
-/// cells and the rest: without a division for each point.
-class CellWalk {
+/// Divides lengths by a cell's size: floor(length * kFractionOne / cell), without a division.
+class InCells {
  public:
-  CellWalk(std::int64_t at_um, std::int64_t cell_um)
-      : cell_um_(cell_um), reciprocal_((std::int64_t{1} << kReciprocalBits) / cell_um) {
-    cell_ = floor_divide(at_um, cell_um);
-  }
-  void move_to(std::int64_t at_um) {
-    rest_um_ = at_um - cell_ * cell_um_;
-    for (; rest_um_ < 0; rest_um_ += cell_um_) --cell_;
-    for (; rest_um_ >= cell_um_; rest_um_ -= cell_um_) ++cell_;
-  }
-  [[nodiscard]] std::int64_t cell() const { return cell_; }
-  /// The rest in parts of kFractionOne of a cell, cut off.
-  [[nodiscard]] std::int64_t fraction() const {
-    const std::int64_t parts = rest_um_ * kFractionOne;
-    const std::int64_t fraction = parts * reciprocal_ >> kReciprocalBits;  // or one less
-    return (fraction + 1) * cell_um_ <= parts ? fraction + 1 : fraction;
+  explicit InCells(std::int64_t cell_um)
+      : cell_um_(cell_um), reciprocal_((std::int64_t{1} << kReciprocalBits) / cell_um) {}
+  /// `length_um`: not negative, and below 2^(62 - kReciprocalBits - kFractionBits) cells.
+  [[nodiscard]] std::int64_t operator()(std::int64_t length_um) const {
+    const std::int64_t parts = length_um * kFractionOne;
+    const std::int64_t quotient = parts * reciprocal_ >> kReciprocalBits;  // or one less
+    return quotient + ((quotient + 1) * cell_um_ <= parts ? 1 : 0);
   }
 
  private:
-  // rest_um_ * kFractionOne * reciprocal_ stays below 2^(kReciprocalBits + kFractionBits).
-  static constexpr int kReciprocalBits = 48;
+  static constexpr int kReciprocalBits = 44;
   std::int64_t cell_um_, reciprocal_;
-  std::int64_t cell_ = 0, rest_um_ = 0;
 };
 
-// Adds the layer's value between the four cells around a point to one cell's sums.
-void add_sample(const FourCells& cells, std::int64_t fx, std::int64_t fy,
+// Adds a layer's value between the four cells around a point to one cell's sums. `corner`: the cell
+// below and left of the point, in rows of `width`; fx, fy: how far on the point is.
+void add_sample(const QuantisedCell* corner, std::int64_t width, std::int64_t fx, std::int64_t fy,
                 std::int64_t& weighted_tsd, std::int64_t& weight) {
   const bool right = fx >= kFractionOne / 2, upper = fy >= kFractionOne / 2;
-  if (cells[(right ? 1U : 0U) + (upper ? 2U : 0U)].weight == 0) return;
+  if (corner[(right ? 1 : 0) + (upper ? width : 0)].weight == 0) return;
+  const auto add = [&](QuantisedCell cell, std::int64_t share) {
+    weighted_tsd += share * cell.weight * cell.tsd;
+    weight += share * cell.weight;
+  };
   const std::int64_t gx = kFractionOne - fx, gy = kFractionOne - fy;
-  const std::array<std::int64_t, 4> shares{gx * gy, fx * gy, gx * fy, fx * fy};
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    weighted_tsd += shares[i] * cells[i].weight * cells[i].tsd;
-    weight += shares[i] * cells[i].weight;
-  }
+  add(corner[0], gx * gy);
+  add(corner[1], fx * gy);
+  add(corner[width], gx * fy);
+  add(corner[width + 1], fx * fy);
 }
 
 void add_member(TileIndex index, const FusedMember& member, std::int64_t cell_um, Sums& sums) {
-  LayerReader layer(*member.layer);
+  // p_layer = R^T (p_fused - t), counted from the centre of the layer's first cell; the shift of a
+  // negative number rounds down since C++20.
   const auto& T = member.T_fused_layer;
   const CellIndex first = first_cell(index);
   const std::int64_t dx = std::int64_t{first.x} * cell_um + cell_um / 2 - T.x_um;
+  const std::int64_t dy = std::int64_t{first.y} * cell_um + cell_um / 2 - T.y_um;
+  const std::int64_t x_q30 = T.cos_q30 * dx + T.sin_q30 * dy + kRoundQ30;
+  const std::int64_t y_q30 = T.cos_q30 * dy - T.sin_q30 * dx + kRoundQ30;
+  const std::int64_t cos_step = T.cos_q30 * cell_um, sin_step = T.sin_q30 * cell_um;
+  const auto cell_at = [cell_um](std::int64_t at_q30) {
+    return static_cast<std::int32_t>(floor_divide((at_q30 >> 30) - cell_um / 2, cell_um));
+  };
+  constexpr std::int64_t kLast = kTileSide - 1;
+  const Reach x_reach = reach(x_q30, kLast * cos_step, kLast * sin_step);
+  const Reach y_reach = reach(y_q30, -kLast * sin_step, kLast * cos_step);
+  const CellIndex low{cell_at(x_reach.low), cell_at(y_reach.low)};
+  const Patch patch(*member.layer, low, {cell_at(x_reach.high) + 1, cell_at(y_reach.high) + 1});
+  if (patch.is_unknown()) return;
+
+  const InCells in_cells(cell_um);
+  const std::int64_t x0_um = low.x * cell_um + cell_um / 2, y0_um = low.y * cell_um + cell_um / 2;
   std::size_t offset = 0;
   for (int row = 0; row < kTileSide; ++row) {
-    const std::int64_t dy = (std::int64_t{first.y} + row) * cell_um + cell_um / 2 - T.y_um;
-    // p_layer = R^T (p_fused - t), from cell to cell of the row; the shift of a negative number
-    // rounds down since C++20. Counted from the centre of the layer's first cell.
-    std::int64_t x_q30 = T.cos_q30 * dx + T.sin_q30 * dy + kRoundQ30;
-    std::int64_t y_q30 = T.cos_q30 * dy - T.sin_q30 * dx + kRoundQ30;
-    CellWalk x((x_q30 >> 30) - cell_um / 2, cell_um), y((y_q30 >> 30) - cell_um / 2, cell_um);
-    for (int column = 0; column < kTileSide; ++column, ++offset) {
-      x.move_to((x_q30 >> 30) - cell_um / 2);
-      y.move_to((y_q30 >> 30) - cell_um / 2);
-      add_sample(layer.four_at(x.cell(), y.cell()), x.fraction(), y.fraction(),
+    std::int64_t x = x_q30 + row * sin_step, y = y_q30 + row * cos_step;
+    for (int column = 0; column < kTileSide; ++column, ++offset, x += cos_step, y -= sin_step) {
+      const std::int64_t px = in_cells((x >> 30) - x0_um), py = in_cells((y >> 30) - y0_um);
+      const auto corner =
+          patch.cells() + (py >> kFractionBits) * patch.width() + (px >> kFractionBits);
+      add_sample(corner, patch.width(), px % kFractionOne, py % kFractionOne,
                  sums.weighted_tsd[offset], sums.weight[offset]);
-      x_q30 += T.cos_q30 * cell_um;
-      y_q30 -= T.sin_q30 * cell_um;
     }
   }
 }
