@@ -16,7 +16,7 @@ struct MatchError {
 class FailureDetector {
  public:
   struct Config {
-    int min_model_points = 30;       ///< n_min
+    int min_model_points = 20;       ///< n_min
     double max_mean_error_m = 0.08;  ///< E_TF0
     double pair_gate_m = 0.4;  ///< a model point without a scan point this near has no partner
   };

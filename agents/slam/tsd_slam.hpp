@@ -34,7 +34,7 @@ enum class Matcher {
 struct SlamConfig {
   Matcher matcher = Matcher::direct;
   double max_range_m = 30.0;
-  int min_model_points = 30;       ///< n_min of Algorithm 1
+  int min_model_points = 20;       ///< n_min of Algorithm 1
   double max_mean_error_m = 0.08;  ///< E_TF0 of Algorithm 1, as a mean
   int gicp_max_iterations = 100;
 

@@ -54,7 +54,7 @@ TEST_F(LoadConfig, DefaultsNeedNoFile) {
   EXPECT_EQ(config_.mission().mission_id(), "mission");
   EXPECT_EQ(config_.mission().domain_id(), 42U);
   EXPECT_DOUBLE_EQ(config_.grid().cell_size_m(), 0.05);
-  EXPECT_EQ(config_.slam().min_model_points(), 30U);
+  EXPECT_EQ(config_.slam().min_model_points(), 20U);
   EXPECT_TRUE(config_.sharing().match_working_map());
   EXPECT_EQ(config_.floor(), 0);
 }
