@@ -1,6 +1,7 @@
 // The map: ground and trails, and what lives on it above. Each is a picture that reaches beyond the view, so that moving the map
 // paints next to nothing.
 import { Camera } from "./camera";
+import { Labels } from "./labels";
 import { Layer } from "./layer";
 import { drawScale, drawTrail, Overlay } from "./overlay";
 import { drawCross, hatching } from "./pen";
@@ -28,6 +29,7 @@ export class MapView {
   private readonly ground = new Layer(true);
   private readonly trails = new Layer(false);
   private readonly overlay = new Layer(false);
+  private readonly labels = new Labels();
   private seen = "";
   private movedAtMs = -Infinity;
   /// Tiles were painted since the ground was.
@@ -131,7 +133,7 @@ export class MapView {
 
   private refreshOverlay(ms: number, isMoved: boolean): void {
     const { camera, overlay, overlayPen, scale, state, measure, route, unit } = this, { search } = state;
-    const drawn = { state, measure, route, unit };
+    const drawn = { state, measure, route, unit, labels: this.labels };
     const isUpright = overlay.isUpright(camera);
     const content = this.content(state.posesHeard, search.isShown && search.heard);
     const isDue = !isUpright || !overlay.holds(content, camera) || ms - overlay.paintedAtMs > OVERLAY_MS;

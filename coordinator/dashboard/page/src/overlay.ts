@@ -1,5 +1,6 @@
 // What lives on the map: helmets, finds, the exit, ways, what is measured.
 import type { Camera } from "./camera";
+import type { Labels } from "./labels";
 import { colourOf, drawFind, drawMark } from "./marks";
 import { drawCross, drawLabel, drawLine, type Stroke } from "./pen";
 import { length, type Point } from "./route";
@@ -18,30 +19,28 @@ export interface Drawn {
   route: { points: Point[]; isFree: boolean } | null;
   /// How much larger than on a small screen marks and letters are.
   unit: number;
+  labels: Labels;
 }
 
 export class Overlay {
   constructor(private readonly pen: Pen, private readonly camera: Camera, private readonly drawn: Drawn) {}
 
   draw(): void {
-    const { pen, camera, drawn } = this, { state, unit, route } = drawn;
+    const { pen, camera, drawn } = this, { state, unit, route, labels } = drawn;
     const search = state.map === "" && state.search.isShown ? state.search : null;
     search?.drawFrontiers(pen, camera, unit);
     if (route) this.line(route.points, { colour: "#009E73", width: 6, dash: route.isFree ? [] : [10, 8] });
     this.drawExit();
-    search?.drawSuggestions(pen, camera, unit, (name) => state.agentOf(name));
+    search?.drawSuggestions(pen, camera, unit, labels, (name) => state.agentOf(name));
     this.drawFinds();
     this.drawHelmets();
+    labels.draw(pen, unit, colours());
     this.drawMeasure();
   }
 
   private line(points: Point[], stroke: Stroke): void {
     drawLine(this.pen, points.map((p) => this.camera.toScreen(p.x, p.y)), stroke);
   }
-  private label(text: string, x: number, y: number): void {
-    drawLabel(this.pen, text, x, y, this.drawn.unit, colours());
-  }
-
   private drawHelmets(): void {
     const { state } = this.drawn;
     const alarmed = new Set(state.openAlerts().filter((alert) => alert.kind === 0).map((alert) => alert.subjectId || alert.issuerId));
@@ -51,7 +50,7 @@ export class Overlay {
   }
 
   private drawHelmet({ agent, pose }: Member, isAlarmed: boolean): void {
-    const { pen, camera } = this, { state, unit } = this.drawn;
+    const { pen, camera } = this, { state, unit, labels } = this.drawn;
     const [x, y] = camera.toScreen(pose!.xM, pose!.yM);
     const age = Math.max(0, state.now() - pose!.heardAtS);
     const isSelected = agent.agentId === state.selected;
@@ -70,7 +69,8 @@ export class Overlay {
       isAlarmed,
     });
     pen.restore();
-    this.label(agent.agentId + (age > 2 ? `  ${duration(age)}` : ""), x + 30 * unit, y);
+    labels.keepClear(x, y, 14 * unit);
+    labels.add(agent.agentId, agent.agentId + (age > 2 ? `  ${duration(age)}` : ""), x, y, 30 * unit);
   }
 
   private drawUnsure(radiusM: number): void {
@@ -86,18 +86,20 @@ export class Overlay {
   }
 
   private drawFinds(): void {
-    const { pen, camera } = this, { state, unit } = this.drawn;
+    const { pen, camera } = this, { state, unit, labels } = this.drawn;
     for (const find of state.finds) {
       if (find.map !== state.map) continue;
+      const [x, y] = camera.toScreen(find.xM, find.yM);
+      labels.keepClear(x, y, 11 * unit);
       pen.save();
-      pen.translate(...camera.toScreen(find.xM, find.yM));
+      pen.translate(x, y);
       drawFind(pen, find.state, find.kind, 11 * unit);
       pen.restore();
     }
   }
 
   private drawExit(): void {
-    const { pen } = this, { state, unit } = this.drawn;
+    const { pen } = this, { state, unit, labels } = this.drawn;
     const [x, y] = this.camera.toScreen(state.exit.x, state.exit.y);
     pen.fillStyle = "#009E73";
     pen.strokeStyle = "#fff";
@@ -105,7 +107,8 @@ export class Overlay {
     const r = 9 * unit;
     pen.fillRect(x - r, y - r, 2 * r, 2 * r);
     pen.strokeRect(x - r, y - r, 2 * r, 2 * r);
-    this.label(say("exit"), x + 14 * unit, y);
+    labels.keepClear(x, y, r);
+    labels.add(" exit", say("exit"), x, y, 14 * unit);
   }
 
   private drawMeasure(): void {
@@ -116,7 +119,7 @@ export class Overlay {
     if (measure.length < 2) return;
     const [a, b] = measure as [Point, Point];
     const [x, y] = this.camera.toScreen((a.x + b.x) / 2, (a.y + b.y) / 2);
-    this.label(`${decimals(length(measure), 2)} m`, x + 8, y - 12);
+    drawLabel(this.pen, `${decimals(length(measure), 2)} m`, x + 8, y - 12, this.drawn.unit, colours());
   }
 }
 

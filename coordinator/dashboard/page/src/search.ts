@@ -2,6 +2,7 @@
 import { decompress } from "fzstd";
 import type { Agent, Search } from "./dashboard_pb";
 import type { Camera } from "./camera";
+import type { Labels } from "./labels";
 import { colourOf } from "./marks";
 import { drawLabel, drawLine } from "./pen";
 import type { Point } from "./route";
@@ -98,7 +99,7 @@ export class SearchHelp {
       drawLine(pen, line.map((p) => camera.toScreen(p.x, p.y)), { colour: colours().ink, width: 3 * unit, dash: [7 * unit, 5 * unit] });
   }
 
-  drawSuggestions(pen: CanvasRenderingContext2D, camera: Camera, unit: number, agentOf: (name: string) => Agent | undefined): void {
+  drawSuggestions(pen: CanvasRenderingContext2D, camera: Camera, unit: number, labels: Labels, agentOf: (name: string) => Agent | undefined): void {
     for (const { agentId, distanceM, way } of this.suggestions) {
       const end = way.at(-1);
       if (!end) continue;
@@ -112,7 +113,8 @@ export class SearchHelp {
         pen.lineWidth = width * unit;
         pen.stroke();
       }
-      drawLabel(pen, `${agentOf(agentId)?.label ?? ""}?  ${decimals(distanceM, 0)} m`, x + 16 * unit, y, unit, colours());
+      labels.keepClear(x, y, 11 * unit);
+      labels.add(`${agentId}?`, `${agentOf(agentId)?.label ?? ""}?  ${decimals(distanceM, 0)} m`, x, y, 16 * unit);
     }
   }
 
