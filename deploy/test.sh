@@ -65,7 +65,7 @@ phase "build (dev)" build dev
 phase "tests (dev)" run_tests dev "$((2 * jobs))"  # real processes mostly wait
 if [[ "$deep" == yes ]]; then
   phase "build (address and undefined behaviour sanitizers)" build asan-ubsan lifeline_inner_tests
-  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan "$jobs" -LE 'system|bench|planted' -E "$repetitions|_NOT_BUILT"
+  phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan "$((jobs + 1))" -LE 'system|bench|planted' -E "$repetitions|_NOT_BUILT"
   phase "build (thread sanitizer)" build tsan lifeline_thread_tests
   phase "tests (thread sanitizer)" run_tests tsan "$jobs" -L threads
   phase "build (fuzz targets)" build fuzz lifeline_fuzzers

@@ -126,6 +126,8 @@ Result<void> walk_apart(Bench& bench) {
   std::set<int> far;
   for (int helmet = bench.options.helmets / 2; helmet < bench.options.helmets; ++helmet)
     far.insert(RadioFleet::host_of(helmet));
+  // Healed as the walks end: until then the maps change from scan to scan.
+  (void)begun->fleet->until([](const auto& f) { return f.all_walk(); }, seconds(30));
   begun->fleet->listen(from_seconds(bench.options.walk_s - 20.0));
   if (auto parted = begun->net->part(far); !parted) return parted;
   begun->fleet->listen(seconds(20));

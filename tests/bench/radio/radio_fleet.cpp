@@ -213,14 +213,22 @@ bool RadioFleet::all_equal(double since_s) const {
   return maps.size() == 1 && maps.begin()->find_first_not_of('0') != std::string::npos;
 }
 
-bool RadioFleet::all_finished() const {
+bool RadioFleet::all_helmets(const std::function<bool(const HeardStatus&)>& holds) const {
   return std::ranges::all_of(running_, [&](const auto& running) {
     if (!is_machine(running.first) || running.first == kCoordinator || running.first == kStandby) {
       return true;
     }
     const auto status = heard_.find(running.first);
-    return status != heard_.end() && status->second.finished;
+    return status != heard_.end() && holds(status->second);
   });
+}
+
+bool RadioFleet::all_finished() const {
+  return all_helmets([](const HeardStatus& status) { return status.finished; });
+}
+
+bool RadioFleet::all_walk() const {
+  return all_helmets([](const HeardStatus& status) { return status.scans > 0; });
 }
 
 }  // namespace lifeline::bench

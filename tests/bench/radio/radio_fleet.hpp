@@ -82,6 +82,8 @@ class RadioFleet {
   /// All that run hold the same common map, by statuses that came after `since_s` (wall clock).
   [[nodiscard]] bool all_equal(double since_s = 0.0) const;
   [[nodiscard]] bool all_finished() const;
+  /// Every helmet has told of scans.
+  [[nodiscard]] bool all_walk() const;
   /// Everybody's status says that it hears everybody else.
   [[nodiscard]] bool all_hear_all() const;
   /// Another coordinator, on a host of its own: it follows, and holds nothing yet.
@@ -99,6 +101,9 @@ class RadioFleet {
   }
 
  private:
+  /// Whether all helmets have told a status, each of which `holds`.
+  [[nodiscard]] bool all_helmets(const std::function<bool(const HeardStatus&)>& holds) const;
+
   RadioFleet(RadioNet* net, Options options) : net_(net), options_(std::move(options)) {}
   [[nodiscard]] static Result<RadioFleet> start(RadioNet* net, const Options& options);
   [[nodiscard]] Result<demo::ChildProcess> begin(int host, const std::string& name,
