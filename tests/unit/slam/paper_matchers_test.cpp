@@ -169,7 +169,8 @@ TEST(FailureDetector, FailsOnLargeErrorsFewPairsAndNoModel) {
   const FailureDetector detector({});
   EXPECT_TRUE(detector.detect({100, 0.081}));
   EXPECT_FALSE(detector.detect({100, 0.08}));
-  EXPECT_TRUE(detector.detect({29, 0.001}));
+  EXPECT_FALSE(detector.detect({20, 0.001}));
+  EXPECT_TRUE(detector.detect({19, 0.001}));
   const PointSet none, scan = seen_from({});
   const MatchError error = detector.measure(none, scan, {});
   EXPECT_EQ(error.model_points, 0);
