@@ -12,7 +12,8 @@ add_compile_options(-ffp-contract=off)
 
 find_program(LIFELINE_CCACHE ccache)
 if(LIFELINE_CCACHE)
-  # Without these two ccache keeps nothing of a source that a precompiled header is used for; no source of ours tells the time of its compilation.
+  # Without these two, ccache keeps nothing of a source that a precompiled header is used for. No source of ours tells the
+  # time of its compilation.
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env "CCACHE_SLOPPINESS=pch_defines,time_macros" "${LIFELINE_CCACHE}")
 endif()
 find_program(LIFELINE_MOLD mold)
@@ -35,9 +36,10 @@ function(lifeline_batch target)
   endif()
 endfunction()
 
-# Headers of others that most sources include, parsed once for all targets whose flags are alike; like batches, these hide an
-# include that is forgotten. GCC alone: it takes a header that was compiled with fewer -D than the source, clang does not.
-function(lifeline_precompile_headers name)  # [FLAGS f...] [LINK libs...] [HEADERS h...]
+# lifeline_precompile_headers(NAME [FLAGS f...] [LINK libs...] [HEADERS h...]): headers of others that most sources include,
+# parsed once for all targets whose flags are alike; like batches, these hide an include that is forgotten. GCC alone: it takes
+# a header that was compiled with fewer -D than the source, clang does not.
+function(lifeline_precompile_headers name)
   cmake_parse_arguments(arg "" "" "FLAGS;LINK;HEADERS" ${ARGN})
   set(source "${PROJECT_BINARY_DIR}/precompiled/${name}.cpp")
   file(CONFIGURE OUTPUT "${source}" CONTENT "// A target needs a source.\n")
@@ -62,6 +64,7 @@ if(LIFELINE_BATCHES AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(--param ggc-min-heapsize=1500000)
 endif()
 
+# `precompiled`: one of the above, or nothing. A target of C sources is left as it is.
 function(lifeline_use_precompiled target precompiled)
   get_target_property(sources ${target} SOURCES)
   if(precompiled AND NOT sources MATCHES "\\.c(;|$)")
