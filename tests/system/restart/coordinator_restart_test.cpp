@@ -51,6 +51,14 @@ class CoordinatorRestart : public KilledFleet {
           << testing::PrintToString(epochs);
     }
   }
+  /// Waits until a coordinator leads and a helmet follows the directive that it leads with.
+  void expect_led_by(const std::string& coordinator, const std::string& helmet) {
+    const std::string words = "leads: directive ";
+    ASSERT_NO_FATAL_FAILURE(expect(coordinator, words));
+    const std::string told = program(coordinator).output();
+    const int epoch = std::stoi(told.substr(told.find(words) + words.size()));
+    expect(helmet, "follows directive " + std::to_string(epoch));
+  }
   /// How many helmets stand in the common map, each time a helmet followed a directive.
   void expect_never_apart_again(const std::string& name) {
     bool together = false;
@@ -110,10 +118,7 @@ TEST_F(CoordinatorRestart, AStandbyTakesOverAndTheOldOneTakesItsAnswerOver) {
   expect("alpha", "follows directive");
   expect("standby", "takes over directive");
   kill("coordinator");
-  expect("standby", "leads: directive");
-  const std::string told = program("standby").output(), words = "leads: directive ";
-  expect("alpha", "follows directive " +
-                      std::to_string(std::stoi(told.substr(told.find(words) + words.size()))));
+  expect_led_by("standby", "alpha");
   start_coordinator();
   expect("coordinator", "leads: directive");
   expect("standby", "gives way");
@@ -129,9 +134,7 @@ TEST_F(CoordinatorRestart, OneThatWasFrozenListensBeforeItSpeaksAgain) {
   start_helmets();
   expect("alpha", "follows directive");
   program("coordinator").send(SIGSTOP);
-  expect("standby", "leads: directive");
-  const auto before = epochs_of("alpha");
-  expect("alpha", "follows directive " + std::to_string(before.back() + 1));
+  expect_led_by("standby", "alpha");
   program("coordinator").send(SIGCONT);
   expect("coordinator", "gives way");
   expect_settled("coordinator");
