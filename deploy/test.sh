@@ -62,7 +62,7 @@ run_fuzzers() {
 phase "packages" deploy/setup.sh
 jobs="$(parallel_jobs)"
 phase "build (dev)" build dev
-phase "tests (dev)" run_tests dev "$((2 * jobs))"  # real processes mostly wait
+phase "tests (dev)" run_tests dev "$((2 * jobs + 1))"  # real processes mostly wait
 if [[ "$deep" == yes ]]; then
   phase "build (address and undefined behaviour sanitizers)" build asan-ubsan lifeline_inner_tests
   phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan "$((jobs + 1))" -LE 'system|bench|planted' -E "$repetitions|_NOT_BUILT"

@@ -45,6 +45,7 @@ constexpr std::array<std::pair<const char*, const char*>, 5> kMotions{
 struct Options {
   std::optional<std::filesystem::path> out;
   int seconds = 20;
+  int minutes = 10;
 };
 
 /// Rooms of 4 m with doors, as a lidar would see them; `seen` makes every look a little different.
@@ -216,8 +217,9 @@ int run(const Options& options) {
   rows.push_back(
       {"page (heap, cells, painted map)", figure("page_mb"), "MB", Bar{Side::at_most, 300.0}});
   rows.push_back({"server", 100.0 * served_s / wall_s, "% of a core", Bar{Side::at_most, 20.0}});
-  const LookBackFigures back = look_back_figures();
-  rows.push_back({"look back: over 10 min of 8 helmets", back.way_s, "s"});
+  const LookBackFigures back = look_back_figures(std::chrono::minutes(options.minutes));
+  rows.push_back(
+      {fmt::format("look back: over {} min of 8 helmets", options.minutes), back.way_s, "s"});
   rows.push_back({"look back: at rest", 100.0 * back.rest_share, "% of a core"});
   rows.push_back(
       {"look back: played", 100.0 * back.play_share, "% of a core", Bar{Side::at_most, 20.0}});
@@ -233,6 +235,7 @@ int run_dashboard_bench(std::span<const char* const> arguments) {
   Options options;
   line.add_out(options.out);
   line.add("--seconds", options.seconds, "how long frames are counted", 1, 3600);
+  line.add("--minutes", options.minutes, "how much is recorded to look back at", 2, 600);
   if (const auto status = line.parse(arguments)) return *status;
   return run(options);
 }

@@ -21,8 +21,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 10'000;
 constexpr int kRecordedHelmets = 8;
-constexpr int kLookBackMinutes = 10;
-constexpr int kRecordedTicks = kLookBackMinutes * 600;  // ten a second
+constexpr int kTicksAMinute = 600;
 constexpr int kTicksARecordedTile = 5;                  // each helmet sends two tiles a second ...
 constexpr int kTilesAPlace = 20;                        // ... and sees a new one every ten
 
@@ -46,13 +45,15 @@ QuantisedTile rooms(std::uint64_t revision) {
 /// A recording under way, and who writes it.
 class RecordedDrill {
  public:
-  explicit RecordedDrill(bag::BagWriter writer) : recorder_(std::move(writer), kMostWaiting) {
+  RecordedDrill(bag::BagWriter writer, std::chrono::minutes length)
+      : recorder_(std::move(writer), kMostWaiting) {
     put(ros2::Message{
         std::string(kRecordingTopic), std::string(ros2::kString),
         ros2::text(
             R"({"format":1,"recorder":"vehicle","mission_id":"drill","cell_size_m":0.05,"truncation_m":0.15})")});
     put_directive();
-    for (int tick = 0; tick < kRecordedTicks; ++tick) {
+    const int ticks = static_cast<int>(length.count()) * kTicksAMinute;
+    for (int tick = 0; tick < ticks; ++tick) {
       now_ += std::chrono::milliseconds(100);
       for (int helmet = 0; helmet < kRecordedHelmets; ++helmet) put_helmet(helmet, tick);
       while (recorder_.waiting() > kMostWaiting / 2)
@@ -153,12 +154,12 @@ class Looker {
 
 }  // namespace
 
-LookBackFigures look_back_figures() {
+LookBackFigures look_back_figures(std::chrono::minutes recorded) {
   const double nothing = std::nan("");
   const support::TemporaryFolder folder;
   auto writer = bag::BagWriter::create(folder.path() / "bag");
   if (!writer) return {nothing, nothing, nothing, nothing};
-  RecordedDrill drill(*std::move(writer));
+  RecordedDrill drill(*std::move(writer), recorded);
   dashboard::Feed feed;
   feed.set_watchers(1);
   dashboard::Timeline begun;
@@ -170,11 +171,11 @@ LookBackFigures look_back_figures() {
   Looker looker(**player, feed);
   LookBackFigures figures;
   const auto left = std::chrono::steady_clock::now();
-  looker.go_to(std::chrono::minutes(kLookBackMinutes), true);
+  looker.go_to(recorded, true);
   figures.way_s = to_seconds(std::chrono::steady_clock::now() - left);
   figures.memory_mb = resident_mb() - before_mb;
   figures.rest_share = looker.share(std::chrono::seconds(3));
-  looker.go_to(std::chrono::minutes(kLookBackMinutes - 1), false);
+  looker.go_to(recorded - std::chrono::minutes(1), false);
   figures.play_share = looker.share(std::chrono::seconds(10));
   return figures;
 }

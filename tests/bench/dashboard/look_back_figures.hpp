@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
+
 namespace lifeline::bench {
 
-/// What it takes to look back at ten minutes of eight helmets, recorded just now.
+/// What it takes to look back at some minutes of eight helmets, recorded just now.
 struct LookBackFigures {
   double way_s = 0.0;       ///< from the beginning to the end, as fast as it goes
   double rest_share = 0.0;  ///< of a core, while it stands still
@@ -10,7 +12,7 @@ struct LookBackFigures {
   double memory_mb = 0.0;   ///< that the process grew by
 };
 
-/// NaN where it cannot be recorded.
-[[nodiscard]] LookBackFigures look_back_figures();
+/// `recorded`: how much of the mission, two minutes or more. NaN where it cannot be recorded.
+[[nodiscard]] LookBackFigures look_back_figures(std::chrono::minutes recorded);
 
 }  // namespace lifeline::bench
