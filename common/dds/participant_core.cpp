@@ -1,6 +1,7 @@
 #include "common/dds/participant_core.hpp"
 
 #include "common/dds/middleware_log.hpp"
+#include "common/dds/patient_transport.hpp"
 
 namespace lifeline::dds {
 namespace {
@@ -64,6 +65,7 @@ Result<void> ParticipantCore::open(const ParticipantOptions& options, const Prof
                 describe(code));
   }
   qos.name(options.name);
+  space_out_first_acknacks(qos.transport());
   participant_ =
       factory().create_participant(options.domain_id, qos, listener, fast::StatusMask::none());
   if (participant_ == nullptr) {

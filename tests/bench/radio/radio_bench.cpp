@@ -53,13 +53,15 @@ std::set<int> helmet_hosts(const Bench& bench) {
   return hosts;
 }
 
-Result<Case> begin(const Bench& bench, const std::string& name, double loss) {
+/// `heard`: whose traffic is told apart, where that is asked for.
+Result<Case> begin(const Bench& bench, const std::string& name, double loss,
+                   const std::set<int>& heard) {
   auto net = RadioNet::make(bench.options.helmets + 3);
   if (!net) return forward_error(net);
   Case begun{std::make_unique<RadioNet>(*std::move(net)), nullptr, nullptr};
   if (auto set = begun.net->set_loss(loss); !set) return forward_error(set);
   if (bench.options.kinds) {
-    auto traffic = RadioTraffic::listen(*begun.net, helmet_hosts(bench));
+    auto traffic = RadioTraffic::listen(*begun.net, heard);
     if (!traffic) return forward_error(traffic);
     begun.traffic = *std::move(traffic);
   }
@@ -69,6 +71,10 @@ Result<Case> begin(const Bench& bench, const std::string& name, double loss) {
   if (!fleet) return forward_error(fleet);
   begun.fleet = std::make_unique<RadioFleet>(*std::move(fleet));
   return begun;
+}
+
+Result<Case> begin(const Bench& bench, const std::string& name, double loss) {
+  return begin(bench, name, loss, helmet_hosts(bench));
 }
 
 double octets(const Bench& bench, const RadioNet& net) {
@@ -162,13 +168,14 @@ Result<void> off_the_air(Bench& bench) {
 }
 
 Result<void> narrow_link(Bench& bench) {
-  auto begun = begin(bench, "narrow link", 0.0);
+  auto begun = begin(bench, "narrow link", 0.0, {RadioFleet::host_of(0)});
   if (!begun) return forward_error(begun);
   if (auto set = begun->net->set_rate(RadioFleet::host_of(0), 250); !set) return set;
   begun->fleet->listen(from_seconds(bench.options.walk_s));
   auto ages = begun->fleet->take_pose_ages();
   bench.row("250 kbit/s for a helmet: age of its pose on arrival, p95",
             ages["alpha"].empty() ? kMissed : quantile(ages["alpha"], 0.95), "s", 1.0);
+  tell_kinds(bench, "250 kbit/s for a helmet", *begun);
   return {};
 }
 
