@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,26 +18,40 @@ struct BitEstimate {
   std::uint16_t probability = kOne / 2;  ///< of a 1, in 1 / kOne
   std::uint16_t seen = 0;                ///< bits, at most kMaxSeen
 
-  /// How much it counts among others: more where it saw more and where it is surer.
-  [[nodiscard]] std::uint64_t trust() const {
-    const std::uint64_t p = probability;
-    return (std::uint64_t{10} * seen + 3) * kOne / (p * (kOne - p) / kOne + 1311);
+  /// How much it counts among others: more where it saw more and where it is surer. Below 2^15.
+  [[nodiscard]] std::uint32_t trust() const {
+    const std::uint32_t p = probability;
+    return (10U * seen + 3) * kOne / (p * (kOne - p) / kOne + 1311);
   }
+  /// Goes towards the bit by 10 / (10 seen + 16) of the way.
   void learn(bool bit) {
-    const std::int64_t target = bit ? kOne - 1 : 0, now = probability;
-    probability = static_cast<std::uint16_t>(now + (target - now) * 10 / (10 * seen + 16));
+    const std::uint64_t way = bit ? kOne - 1U - probability : probability;
+    const auto step = static_cast<std::uint16_t>(way * 10 * kReciprocals[seen] >> 32);
+    probability = static_cast<std::uint16_t>(bit ? probability + step : probability - step);
     if (seen < kMaxSeen) ++seen;
   }
+
+ private:
+  /// n / (10 seen + 16) is n * kReciprocals[seen] >> 32 for every n below 2^20: a tile takes a
+  /// hundred thousand of these, and divisions were most of its time.
+  static constexpr std::array<std::uint32_t, kMaxSeen + 1> kReciprocals = [] {
+    std::array<std::uint32_t, kMaxSeen + 1> reciprocals{};
+    for (std::uint32_t seen = 0; seen <= kMaxSeen; ++seen)
+      reciprocals[seen] =
+          static_cast<std::uint32_t>((std::uint64_t{1} << 32) / (10 * seen + 16)) + 1;
+    return reciprocals;
+  }();
 };
 
 /// The probability of a 1 by several contexts together, in [16, 65520] / 65536.
 [[nodiscard]] inline std::uint32_t mean_probability(std::span<BitEstimate* const> estimates) {
-  std::uint64_t sum = 0, trust = 0;
+  std::uint64_t sum = 0, all = 0;
   for (const BitEstimate* estimate : estimates) {
-    sum += estimate->trust() * estimate->probability;
-    trust += estimate->trust();
+    const std::uint64_t trust = estimate->trust();
+    sum += trust * estimate->probability;
+    all += trust;
   }
-  const std::uint64_t mean = sum / trust;
+  const std::uint64_t mean = sum / all;
   return static_cast<std::uint32_t>(mean < 16 ? 16 : mean > 65520 ? 65520 : mean);
 }
 

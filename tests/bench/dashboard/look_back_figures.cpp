@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t kMostWaiting = 10'000;
 constexpr int kRecordedHelmets = 8;
 constexpr int kTicksAMinute = 600;
-constexpr int kTicksARecordedTile = 5;                  // each helmet sends two tiles a second ...
-constexpr int kTilesAPlace = 20;                        // ... and sees a new one every ten
+constexpr int kTicksARecordedTile = 5;  // each helmet sends two tiles a second ...
+constexpr int kTilesAPlace = 20;        // ... and sees a new one every ten
 
 std::string name_of(int helmet) {
   return fmt::format("helmet-{:02}", helmet);
