@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/sharing/accept.hpp"
+#include "common/sharing/groups.hpp"
 
 namespace lifeline::sharing {
 namespace {
@@ -23,12 +24,34 @@ bool holds(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
+bool holds_the_same(const wire::AgentStatus& a, const wire::AgentStatus& b) {
+  return std::ranges::equal(a.layers, b.layers, [](const auto& x, const auto& y) {
+    return x.layer == y.layer && x.revisions == y.revisions;
+  });
+}
+
+/// Whether a helmet of the own group makes another common map of the same tiles and epoch: then
+/// two coordinators wrote a directive of that epoch.
+bool follows_another(const wire::AgentStatus& theirs, const Followed& own) {
+  if (theirs.epoch_applied != own.directive.epoch || own.said.epoch_applied != own.directive.epoch)
+    return false;
+  const auto group = [&](const wire::AgentStatus& of) {
+    const auto layer = to_layer_key({of.agent_id, of.map_id, of.floor});
+    return layer ? group_of(own.directive, *layer) : std::vector<Placement>{};
+  };
+  const auto shared = group(own.said);
+  return !shared.empty() && shared == group(theirs) && holds_the_same(theirs, own.said) &&
+         theirs.common_map_sha256 != own.said.common_map_sha256;
+}
+
 }  // namespace
 
-bool DirectiveRelay::needs_it(const Roster::Entry& entry, const Roster& roster, Epoch epoch) const {
+bool DirectiveRelay::needs_it(const Roster::Entry& entry, const Roster& roster,
+                              const Followed& own) const {
   const auto& status = entry.status;
-  return status.role == wire::Role::helmet && status.epoch_applied < epoch.value &&
-         holds(status.peers_heard, self_.text()) && !has_leader(status.peers_heard, roster);
+  return status.role == wire::Role::helmet && holds(status.peers_heard, self_.text()) &&
+         !has_leader(status.peers_heard, roster) &&
+         (status.epoch_applied < own.directive.epoch || follows_another(status, own));
 }
 
 unsigned DirectiveRelay::rank_for(const Roster::Entry& entry, SteadyTime now, const Roster& roster,
@@ -42,11 +65,12 @@ unsigned DirectiveRelay::rank_for(const Roster::Entry& entry, SteadyTime now, co
   }));
 }
 
-bool DirectiveRelay::is_due(SteadyTime now, const Roster& roster, Epoch epoch) {
+bool DirectiveRelay::is_due(SteadyTime now, const Roster& roster, const Followed& own) {
+  const Epoch epoch{own.directive.epoch};
   std::map<std::string, SteadyTime> behind;
-  bool due = false;
+  bool due = contradicted_;
   for (const auto& [id, entry] : roster.entries()) {
-    if (Roster::presence(entry, now) == Presence::lost || !needs_it(entry, roster, epoch)) continue;
+    if (Roster::presence(entry, now) == Presence::lost || !needs_it(entry, roster, own)) continue;
     const auto known = behind_since_.find(id);
     const SteadyTime since = known == behind_since_.end() ? now : known->second;
     behind.emplace(id, since);
@@ -54,12 +78,13 @@ bool DirectiveRelay::is_due(SteadyTime now, const Roster& roster, Epoch epoch) {
   }
   behind_since_ = std::move(behind);
   if (!due || (told_at_ != SteadyTime{} && now - told_at_ < config_.repeat_after)) return false;
+  contradicted_ = false;
   told_at_ = now;
   return true;
 }
 
 Result<bool> DirectiveRelay::may_follow(const wire::DirectiveCopy& copy, SteadyTime now,
-                                        const Roster& roster, Epoch own) const {
+                                        const Roster& roster, const wire::MergeDirective& own) {
   const auto& directive = copy.directive;
   if (copy.teller_id != copy.envelope.sender_id ||
       directive.envelope.mission_id != copy.envelope.mission_id ||
@@ -67,11 +92,13 @@ Result<bool> DirectiveRelay::may_follow(const wire::DirectiveCopy& copy, SteadyT
     return fail(ErrorCode::bad_data, "{} tells a directive that is not of this mission or not its",
                 copy.envelope.sender_id);
   }
-  if (!is_believable(Epoch{directive.epoch}, own)) {
+  if (!is_believable(Epoch{directive.epoch}, Epoch{own.epoch})) {
     return fail(ErrorCode::bad_data, "{} tells a directive whose epoch {} is too far ahead of {}",
-                copy.teller_id, directive.epoch, own.value);
+                copy.teller_id, directive.epoch, own.epoch);
   }
-  return directive.epoch > own.value && !has_leader(roster.present(now), roster);
+  if (has_leader(roster.present(now), roster)) return false;
+  contradicted_ = contradicted_ || (directive.epoch == own.epoch && outranks(own, directive));
+  return outranks(directive, own);
 }
 
 }  // namespace lifeline::sharing

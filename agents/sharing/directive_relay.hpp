@@ -27,6 +27,12 @@ struct DirectiveRelayConfig {
   Duration repeat_after = std::chrono::seconds(4);
 };
 
+/// The directive that a helmet follows, and the last status in which it said what it holds.
+struct Followed {
+  const wire::MergeDirective& directive;
+  const wire::AgentStatus& said;
+};
+
 /// Decides when a helmet tells the directive that it follows to others, and which one of others it
 /// may follow: those who hear the coordinator need no other word (docs/decisions/0112). One owner,
 /// not thread-safe.
@@ -35,19 +41,21 @@ class DirectiveRelay {
   explicit DirectiveRelay(AgentId self, DirectiveRelayConfig config = {})
       : self_(std::move(self)), config_(config) {}
 
-  /// Whether to tell the directive of `epoch` now: a helmet that hears this one, but no coordinator
-  /// that leads, follows an older one, and those who come before this one by name have not helped.
-  /// True once each `repeat_after` at most.
-  [[nodiscard]] bool is_due(SteadyTime now, const Roster& roster, Epoch epoch);
+  /// Whether to tell `own` directive now: a helmet that hears this one, but no coordinator that
+  /// leads, follows an older one, or another one of the same epoch, and those who come before this
+  /// one by name have not helped. True once each `repeat_after` at most.
+  [[nodiscard]] bool is_due(SteadyTime now, const Roster& roster, const Followed& own);
 
   /// Whether a copy may be followed by who follows `own`: false where a coordinator that leads is
-  /// heard, whose own word counts, or where it is no news. bad_data where it is not its sender's,
+  /// heard, whose own word counts, or where `own` outranks it: one of the same epoch is answered
+  /// with that. bad_data where it is not its sender's,
   /// or where its epoch is so far ahead that no coordinator could outrank it any more.
   [[nodiscard]] Result<bool> may_follow(const wire::DirectiveCopy& copy, SteadyTime now,
-                                        const Roster& roster, Epoch own) const;
+                                        const Roster& roster, const wire::MergeDirective& own);
 
  private:
-  [[nodiscard]] bool needs_it(const Roster::Entry& entry, const Roster& roster, Epoch epoch) const;
+  [[nodiscard]] bool needs_it(const Roster::Entry& entry, const Roster& roster,
+                              const Followed& own) const;
   /// How many others that it hears come before this one.
   [[nodiscard]] unsigned rank_for(const Roster::Entry& entry, SteadyTime now, const Roster& roster,
                                   Epoch epoch) const;
@@ -56,6 +64,7 @@ class DirectiveRelay {
   DirectiveRelayConfig config_;
   std::map<std::string, SteadyTime> behind_since_;
   SteadyTime told_at_{};
+  bool contradicted_ = false;  ///< by one that the own directive outranks
 };
 
 }  // namespace lifeline::sharing

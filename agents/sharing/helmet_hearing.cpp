@@ -39,7 +39,7 @@ void HelmetSharing::hear_directives() {
 void HelmetSharing::hear_told_directives(SteadyTime now) {
   hear(channels_.relay.told->take(), "directive_copy", config_.speaker.mission_id, now, notes_,
        [&](const wire::DirectiveCopy& copy) -> Result<void> {
-         const auto taken = relay_.may_follow(copy, now, roster_, map_.epoch());
+         const auto taken = relay_.may_follow(copy, now, roster_, map_.directive());
          if (!taken) return forward_error(taken);
          if (*taken) follow(copy.directive, "directive_copy");
          return {};

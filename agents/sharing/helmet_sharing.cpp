@@ -90,8 +90,9 @@ void HelmetSharing::speak(SteadyTime now) {
     wire::AgentStatus own = status();
     own.envelope = status_stamper_.next(wall_now);
     send(*channels_.status, own);
+    said_ = std::move(own);
   }
-  if (relay_.is_due(now, roster_, map_.epoch())) tell_directive(wall_now);
+  if (relay_.is_due(now, roster_, {map_.directive(), said_})) tell_directive(wall_now);
   if (state_.state == wire::AgentState::starting) return;
   // Who stands still for good leaves the link to the tiles.
   const bool sparing = !link_.allows(Traffic::pose) || state_.state == wire::AgentState::finished;

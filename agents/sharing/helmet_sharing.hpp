@@ -185,6 +185,7 @@ class HelmetSharing {
   TileExchange exchange_;
   Roster roster_;
   DirectiveRelay relay_;
+  wire::AgentStatus said_;  ///< the last own status
   OneWayWatch one_way_;
   HelmetState state_;
   DetectionList detections_;

@@ -16,7 +16,7 @@ SharedMap::SharedMap(LayerKey own_layer, GridGeometry geometry)
 
 Result<bool> SharedMap::follow(const wire::MergeDirective& directive) {
   if (auto sound = check_directive(directive); !sound) return forward_error(sound);
-  if (directive.epoch <= directive_.epoch) return false;
+  if (directive.epoch == 0 || !outranks(directive, directive_)) return false;
   directive_ = directive;
   own_weight_ = directive.own_weight_permille / 1000.0;
   place(directive);

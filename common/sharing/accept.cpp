@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
+#include <tuple>
 
 #include "common/grid/tile_index.hpp"
 #include "common/wire/limits.hpp"
@@ -56,6 +57,13 @@ Result<LayerKey> check_pose(const wire::HelmetPose& pose, std::string_view missi
 bool is_believable(Epoch heard, Epoch known) {
   constexpr std::uint64_t kMaxLead = 1'000'000;
   return heard <= known || heard.value - known.value <= kMaxLead;
+}
+
+bool outranks(const wire::MergeDirective& one, const wire::MergeDirective& other) {
+  const auto rank = [](const wire::MergeDirective& of) {
+    return std::tie(of.epoch, of.envelope.incarnation, of.envelope.sender_id);
+  };
+  return rank(one) > rank(other);
 }
 
 Result<void> check_directive(const wire::MergeDirective& directive) {

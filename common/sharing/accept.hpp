@@ -28,6 +28,10 @@ namespace lifeline::sharing {
 /// [0, 1].
 [[nodiscard]] Result<void> check_directive(const wire::MergeDirective& directive);
 
+/// Whether a directive replaces another one: of a larger epoch, or of the same where two
+/// coordinators that did not hear each other both wrote one; then every machine decides alike.
+[[nodiscard]] bool outranks(const wire::MergeDirective& one, const wire::MergeDirective& other);
+
 /// Whether an epoch that somebody speaks of can be true for who knows `known`: no mission has a
 /// million directives, and an epoch far ahead would shut up every coordinator there is.
 [[nodiscard]] bool is_believable(Epoch heard, Epoch known);

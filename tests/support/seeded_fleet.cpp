@@ -8,6 +8,7 @@
 #include <random>
 
 #include "agents/sharing/helmet_sharing.hpp"
+#include "common/sharing/accept.hpp"
 #include "coordinator/coordinator.hpp"
 #include "tests/support/fleet_checker.hpp"
 #include "tests/support/scripted_matches.hpp"
@@ -199,7 +200,7 @@ class SeededFleet {
     const bool silent =
         coordinator_->directive().members.empty() && coordinator_->directive().epoch == said_.epoch;
     if (silent) machines.pop_back();
-    checker_.at_rest(machines, silent ? said_ : coordinator_->directive(), newest_);
+    checker_.at_rest(machines, silent ? followed() : coordinator_->directive(), newest_);
   }
 
   void tick() {
@@ -231,12 +232,27 @@ class SeededFleet {
 
   /// Of those that anybody alive knows.
   [[nodiscard]] const wire::MergeDirective& newest_directive() const {
-    if (coordinator_) return coordinator_->directive();
-    return std::ranges::max_element(
-               helmets_, {},
-               [](const auto& helmet) { return helmet.second->sharing.map().epoch(); })
-        ->second->sharing.map()
-        .directive();
+    return coordinator_ ? coordinator_->directive() : followed();
+  }
+  /// The newest that a helmet follows; none where all of them began anew since.
+  [[nodiscard]] const wire::MergeDirective& followed() const {
+    const auto of = [](const auto& helmet) -> const wire::MergeDirective& {
+      return helmet.second->sharing.map().directive();
+    };
+    return of(*std::ranges::max_element(
+        helmets_, [&](const auto& a, const auto& b) { return sharing::outranks(of(b), of(a)); }));
+  }
+  /// Two coordinators may have written one of the same epoch.
+  [[nodiscard]] bool all_follow(const wire::MergeDirective& directive) const {
+    return std::ranges::all_of(helmets_, [&](const auto& helmet) {
+      const auto& theirs = helmet.second->sharing.map().directive();
+      return theirs.epoch == directive.epoch &&
+             std::ranges::equal(theirs.members, directive.members,
+                                [](const auto& a, const auto& b) {
+                                  return a.layer == b.layer && a.group == b.group &&
+                                         a.T_common_map == b.T_common_map;
+                                });
+    });
   }
 
   [[nodiscard]] bool settled() const {
@@ -244,6 +260,7 @@ class SeededFleet {
       const bool placed = !helmet->sharing.map().common_map().placements().empty();
       if (helmet->sharing.tiles_behind() > 0 || (coordinator_ && !placed)) return false;
     }
+    if (!all_follow(newest_directive())) return false;
     if (!coordinator_) return FleetChecker::all_equal(views(), Epoch{newest_directive().epoch});
     // Helmets keep following the last answer while a new coordinator still matches.
     return coordinator_->idle() && !coordinator_->directive().members.empty() &&

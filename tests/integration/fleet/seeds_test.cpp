@@ -22,7 +22,19 @@ TEST_P(Seeds, AreAllWithoutViolation) {
   }
 }
 
+class OneSeed : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(OneSeed, IsWithoutViolation) {
+  spdlog::set_level(spdlog::level::off);
+  EXPECT_THAT(run_seed(GetParam()).violations, testing::IsEmpty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Thousand, Seeds, testing::Range<std::uint64_t>(1, 1001, kSeedsEach));
+
+/// Found by runs of many thousands.
+INSTANTIATE_TEST_SUITE_P(TwoCoordinatorsWriteOneEpoch, OneSeed, testing::Values(113'375));
+INSTANTIATE_TEST_SUITE_P(NobodyAliveKnowsTheLastDirective, OneSeed,
+                         testing::Values(102'189, 152'582));
 
 TEST(Seed, GivesTheSameRunEachTime) {
   spdlog::set_level(spdlog::level::off);
