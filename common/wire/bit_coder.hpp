@@ -36,9 +36,9 @@ struct BitEstimate {
   /// hundred thousand of these, and divisions were most of its time.
   static constexpr std::array<std::uint32_t, kMaxSeen + 1> kReciprocals = [] {
     std::array<std::uint32_t, kMaxSeen + 1> reciprocals{};
-    for (std::uint32_t seen = 0; seen <= kMaxSeen; ++seen)
-      reciprocals[seen] =
-          static_cast<std::uint32_t>((std::uint64_t{1} << 32) / (10 * seen + 16)) + 1;
+    for (std::uint32_t bits = 0; bits <= kMaxSeen; ++bits)
+      reciprocals[bits] =
+          static_cast<std::uint32_t>((std::uint64_t{1} << 32) / (10 * bits + 16)) + 1;
     return reciprocals;
   }();
 };
