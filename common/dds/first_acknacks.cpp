@@ -39,7 +39,8 @@ bool is_first(Octets acknack) {
                              [](std::uint8_t octet) { return octet == 0; });
 }
 
-constexpr Duration kFirstPause = std::chrono::milliseconds(100);
+constexpr Duration kAsTheyCome = std::chrono::seconds(2);
+constexpr Duration kFirstPause = std::chrono::milliseconds(200);
 constexpr Duration kLongestPause = std::chrono::seconds(2);
 // Fast DDS has stopped asking; whoever asks later begins anew.
 constexpr Duration kEnded = std::chrono::seconds(1);
@@ -80,8 +81,13 @@ bool FirstAckNacks::may_send(Octets message, SteadyTime now) {
   Asked& asked = found->second;
   const bool is_new = asked.pause == Duration{} || now - asked.tried_at > kEnded;
   asked.tried_at = now;
-  if (!is_new && now < asked.next_at) return false;
-  asked.pause = is_new ? kFirstPause : std::min(asked.pause * 3 / 2, kLongestPause);
+  if (is_new) asked.begun_at = now;
+  if (is_new || now - asked.begun_at < kAsTheyCome) {
+    asked.pause = kFirstPause;
+    return true;
+  }
+  if (now < asked.next_at) return false;
+  asked.pause = std::min(asked.pause * 3 / 2, kLongestPause);
   asked.next_at = now + asked.pause;
   return true;
 }
