@@ -33,15 +33,16 @@ bool holds_the_same(const wire::AgentStatus& a, const wire::AgentStatus& b) {
 /// Whether a helmet of the own group makes another common map of the same tiles and epoch: then
 /// two coordinators wrote a directive of that epoch.
 bool follows_another(const wire::AgentStatus& theirs, const Followed& own) {
-  if (theirs.epoch_applied != own.directive.epoch || own.said.epoch_applied != own.directive.epoch)
+  if (theirs.epoch_applied != own.directive.epoch ||
+      own.said.epoch_applied != own.directive.epoch ||
+      theirs.common_map_sha256 == own.said.common_map_sha256 || !holds_the_same(theirs, own.said))
     return false;
   const auto group = [&](const wire::AgentStatus& of) {
     const auto layer = to_layer_key({of.agent_id, of.map_id, of.floor});
     return layer ? group_of(own.directive, *layer) : std::vector<Placement>{};
   };
   const auto shared = group(own.said);
-  return !shared.empty() && shared == group(theirs) && holds_the_same(theirs, own.said) &&
-         theirs.common_map_sha256 != own.said.common_map_sha256;
+  return !shared.empty() && shared == group(theirs);
 }
 
 }  // namespace

@@ -48,8 +48,8 @@ class DirectiveRelay {
 
   /// Whether a copy may be followed by who follows `own`: false where a coordinator that leads is
   /// heard, whose own word counts, or where `own` outranks it: one of the same epoch is answered
-  /// with that. bad_data where it is not its sender's,
-  /// or where its epoch is so far ahead that no coordinator could outrank it any more.
+  /// with that. bad_data where it is not its sender's, or where its epoch is so far ahead that no
+  /// coordinator could outrank it any more.
   [[nodiscard]] Result<bool> may_follow(const wire::DirectiveCopy& copy, SteadyTime now,
                                         const Roster& roster, const wire::MergeDirective& own);
 
