@@ -16,7 +16,6 @@ namespace lifeline {
 namespace {
 
 constexpr Duration kStatusInterval = std::chrono::seconds(1);
-constexpr Duration kRepeatDirectiveAfter = std::chrono::seconds(1);
 constexpr Duration kCountInterval = std::chrono::milliseconds(500);
 // A correction's tiles follow each other closer than this.
 constexpr Duration kQuietAfter = std::chrono::seconds(3);
@@ -78,6 +77,7 @@ void Coordinator::step() {
     wire::AgentStatus own = status();
     own.envelope = status_stamper_.next(clock_.wall_now());
     if (auto sent = channels_.status->put(own); !sent) spdlog::warn("{}", sent.error().text);
+    said_ = std::move(own);
   }
 }
 
@@ -122,13 +122,7 @@ void Coordinator::hear_statuses(SteadyTime now) {
     if (status.agent_id == settings_.speaker.id.text()) continue;
     if (!roster_.hear(status, now)) continue;
     note_epoch(status, now);
-    // Whom the directive did not reach is told again, whatever the middleware thinks: it may have
-    // heard a stronger coordinator when it was sent.
-    if (leads() && !led_since_ && writer_.has_spoken() && status.role == wire::Role::helmet &&
-        status.epoch_applied < writer_.directive().epoch &&
-        now - directive_sent_at_ >= kRepeatDirectiveAfter) {
-      send_directive(now);
-    }
+    keep_followed(status, now);
   }
 }
 

@@ -171,8 +171,15 @@ class Coordinator {
   };
 
   void hear_directives();
+  /// Follows what another coordinator directs, if it is newer.
+  void take_over(const wire::MergeDirective& directive);
   void take_part(SteadyTime now);
   void begin_to_lead(SteadyTime now);
+  void give_way();
+  /// Says the directive again where `status` shows that its sender does not follow it.
+  void keep_followed(const wire::AgentStatus& status, SteadyTime now);
+  /// Whether its sender follows another directive of our epoch, as far as their maps tell.
+  [[nodiscard]] bool follows_another(const wire::AgentStatus& theirs) const;
   void note_epoch(const wire::AgentStatus& status, SteadyTime now);
   void stay_heard(SteadyTime now);
   /// Not yet: others follow an answer that is not known here, and ours would be a part of it.
@@ -211,7 +218,10 @@ class Coordinator {
   merging::DirectiveWriter writer_;
   Leadership leadership_;
   Epoch heard_epoch_{};
-  std::optional<SteadyTime> led_since_;  ///< while it holds back
+  std::optional<wire::MergeDirective> heard_while_leading_;
+  std::map<std::string, SteadyTime> contradicted_since_;  ///< by whom, while we lead
+  wire::AgentStatus said_;                                ///< the last own status
+  std::optional<SteadyTime> led_since_;                   ///< while it holds back
   SteadyTime assert_due_{};
   std::map<LayerKey, merging::LayerProgress> progress_;
   std::map<LayerKey, Watched> watched_;

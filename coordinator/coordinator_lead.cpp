@@ -3,6 +3,7 @@
 
 #include "common/base/log.hpp"
 #include "common/sharing/accept.hpp"
+#include "common/sharing/groups.hpp"
 #include "coordinator/coordinator.hpp"
 
 namespace lifeline {
@@ -12,6 +13,9 @@ namespace {
 constexpr Duration kHoldBackAtLeast = std::chrono::seconds(2);
 constexpr Duration kHoldBackAtMost = std::chrono::seconds(6);
 constexpr Duration kAssertInterval = std::chrono::milliseconds(500);
+constexpr Duration kRepeatDirectiveAfter = std::chrono::seconds(1);
+// A status may tell tiles that the map it tells does not hold yet; the next ones do not.
+constexpr Duration kContradictedFor = std::chrono::seconds(3);
 
 }  // namespace
 
@@ -44,10 +48,56 @@ void Coordinator::hear_directives() {
       continue;
     }
     heard_epoch_ = std::max(heard_epoch_, Epoch{directive.epoch});
-    if (leads() || !writer_.adopt(directive)) continue;
-    spdlog::info("takes over directive {} of {}", directive.epoch, directive.envelope.sender_id);
-    place_common_map();
+    if (!leads()) {
+      take_over(directive);
+    } else if (!heard_while_leading_ || sharing::outranks(directive, *heard_while_leading_)) {
+      heard_while_leading_ = directive;
+    }
   }
+}
+
+void Coordinator::take_over(const wire::MergeDirective& directive) {
+  if (!writer_.adopt(directive)) return;
+  spdlog::info("takes over directive {} of {}", directive.epoch, directive.envelope.sender_id);
+  place_common_map();
+}
+
+void Coordinator::give_way() {
+  channels_.directive.reset();
+  contradicted_since_.clear();
+  // Who leads now may have said it once, before we listened.
+  if (heard_while_leading_) take_over(*heard_while_leading_);
+  heard_while_leading_.reset();
+}
+
+void Coordinator::keep_followed(const wire::AgentStatus& status, SteadyTime now) {
+  if (!leads() || led_since_ || !writer_.has_spoken()) return;
+  // Whom the directive did not reach is told again, whatever the middleware thinks: it may have
+  // heard a stronger coordinator when it was sent.
+  const bool follows =
+      status.role == wire::Role::helmet || status.state == wire::AgentState::starting;
+  if (follows && status.epoch_applied < writer_.directive().epoch &&
+      now - directive_sent_at_ >= kRepeatDirectiveAfter) {
+    send_directive(now);
+  }
+  if (!follows || !follows_another(status)) {
+    contradicted_since_.erase(status.agent_id);
+    return;
+  }
+  const SteadyTime since = contradicted_since_.try_emplace(status.agent_id, now).first->second;
+  if (now - since < kContradictedFor || !writer_.renew(heard_epoch_)) return;
+  spdlog::warn("{} follows another directive {}: ours is {} now", status.agent_id,
+               status.epoch_applied, writer_.directive().epoch);
+  contradicted_since_.clear();
+  send_directive(now);
+}
+
+bool Coordinator::follows_another(const wire::AgentStatus& theirs) const {
+  if (!sharing::holds_another_map(theirs, said_)) return false;
+  if (theirs.role == wire::Role::coordinator) return true;  // it tells the largest group's, too
+  const auto layer = sharing::to_layer_key({theirs.agent_id, theirs.map_id, theirs.floor});
+  return layer && !common_map_.placements().empty() &&
+         sharing::group_of(writer_.directive(), *layer) == common_map_.placements();
 }
 
 void Coordinator::note_epoch(const wire::AgentStatus& status, SteadyTime now) {
@@ -58,7 +108,7 @@ void Coordinator::note_epoch(const wire::AgentStatus& status, SteadyTime now) {
   if (channels_.open_directive) {
     // Somebody led meanwhile. Theirs is the newer answer: hear it, which takes that ours is closed.
     spdlog::warn("gives way: directive {} is of somebody else; listens to it", heard.value);
-    channels_.directive.reset();
+    give_way();
     leadership_.yield(now);
   } else if (writer_.outrank(heard)) {
     // A coordinator that starts anew must outrank what the helmets still follow from before.
@@ -72,7 +122,7 @@ void Coordinator::take_part(SteadyTime now) {
     if (leads_now && !leads()) begin_to_lead(now);
     if (!leads_now && leads()) {
       spdlog::info("gives way to {}", leadership_.leader());
-      channels_.directive.reset();
+      give_way();
     }
   }
   if (leads()) stay_heard(now);

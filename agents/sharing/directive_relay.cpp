@@ -24,18 +24,10 @@ bool holds(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-bool holds_the_same(const wire::AgentStatus& a, const wire::AgentStatus& b) {
-  return std::ranges::equal(a.layers, b.layers, [](const auto& x, const auto& y) {
-    return x.layer == y.layer && x.revisions == y.revisions;
-  });
-}
-
 /// Whether a helmet of the own group makes another common map of the same tiles and epoch: then
 /// two coordinators wrote a directive of that epoch.
 bool follows_another(const wire::AgentStatus& theirs, const Followed& own) {
-  if (theirs.epoch_applied != own.directive.epoch ||
-      own.said.epoch_applied != own.directive.epoch ||
-      theirs.common_map_sha256 == own.said.common_map_sha256 || !holds_the_same(theirs, own.said))
+  if (theirs.epoch_applied != own.directive.epoch || !holds_another_map(theirs, own.said))
     return false;
   const auto group = [&](const wire::AgentStatus& of) {
     const auto layer = to_layer_key({of.agent_id, of.map_id, of.floor});

@@ -1,5 +1,6 @@
 #include "common/sharing/accept.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -64,6 +65,14 @@ bool outranks(const wire::MergeDirective& one, const wire::MergeDirective& other
     return std::tie(of.epoch, of.envelope.incarnation, of.envelope.sender_id);
   };
   return rank(one) > rank(other);
+}
+
+bool holds_another_map(const wire::AgentStatus& one, const wire::AgentStatus& other) {
+  return one.epoch_applied == other.epoch_applied &&
+         one.common_map_sha256 != other.common_map_sha256 &&
+         std::ranges::equal(one.layers, other.layers, [](const auto& a, const auto& b) {
+           return a.layer == b.layer && a.revisions == b.revisions;
+         });
 }
 
 Result<void> check_directive(const wire::MergeDirective& directive) {
