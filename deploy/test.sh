@@ -40,7 +40,7 @@ run_fuzzer() {  # NAME
   local seeds="tests/fuzz/${name%_fuzz}/seeds" log="build/fuzz/$name.log"
   [[ -d "$seeds" ]] || seeds=""
   mkdir -p "build/fuzz/corpus/$name" "build/fuzz/failures"
-  if ! "build/fuzz/bin/$name" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+  if ! "build/asan-ubsan/bin/$name" -max_total_time="$fuzz_seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/failures/$name-" "build/fuzz/corpus/$name" ${seeds:+"$seeds"} >"$log" 2>&1; then
     tail -n 40 "$log"
     echo "$name: failed; its input is in build/fuzz/failures/"
@@ -52,7 +52,7 @@ run_fuzzer() {  # NAME
 
 run_fuzzers() {
   local names
-  names="$(find build/fuzz/bin -name '*_fuzz' -printf '%f\n' | sort)"
+  names="$(find build/asan-ubsan/bin -name '*_fuzz' -printf '%f\n' | sort)"
   [[ -n "$names" ]] || { echo "no fuzz target was built"; return 1; }
   export -f run_fuzzer
   export fuzz_seconds
@@ -64,11 +64,10 @@ jobs="$(parallel_jobs)"
 phase "build (dev)" build dev
 phase "tests (dev)" run_tests dev "$((2 * jobs + 1))"  # real processes mostly wait
 if [[ "$deep" == yes ]]; then
-  phase "build (address and undefined behaviour sanitizers)" build asan-ubsan lifeline_inner_tests
+  phase "build (address and undefined behaviour sanitizers, fuzz targets)" build asan-ubsan lifeline_inner_tests lifeline_fuzzers
   phase "tests (address and undefined behaviour sanitizers)" run_tests asan-ubsan "$((jobs + 1))" -LE 'system|bench|planted' -E "$repetitions|_NOT_BUILT"
   phase "build (thread sanitizer)" build tsan lifeline_thread_tests
   phase "tests (thread sanitizer)" run_tests tsan "$jobs" -L threads
-  phase "build (fuzz targets)" build fuzz lifeline_fuzzers
   phase "fuzz targets" run_fuzzers
 fi
 

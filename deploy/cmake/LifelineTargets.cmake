@@ -37,14 +37,13 @@ function(lifeline_batch target)
 endfunction()
 
 # lifeline_precompile_headers(NAME [FLAGS f...] [LINK libs...] [HEADERS h...]): headers of others that most sources include,
-# parsed once for all targets whose flags are alike; like batches, these hide an include that is forgotten. GCC alone: it takes
-# a header that was compiled with fewer -D than the source, clang does not.
+# parsed once for all targets whose flags are alike; like batches, these hide an include that is forgotten.
 function(lifeline_precompile_headers name)
   cmake_parse_arguments(arg "" "" "FLAGS;LINK;HEADERS" ${ARGN})
   set(source "${PROJECT_BINARY_DIR}/precompiled/${name}.cpp")
   file(CONFIGURE OUTPUT "${source}" CONTENT "// A target needs a source.\n")
   add_library(${name} OBJECT "${source}")
-  target_compile_options(${name} PRIVATE ${arg_FLAGS} -fpch-preprocess)
+  target_compile_options(${name} PRIVATE ${arg_FLAGS} ${LIFELINE_PRECOMPILED_OPTIONS})
   lifeline_warnings(${name})  # -Wpedantic defines a macro less
   target_link_libraries(${name} PRIVATE Eigen3::Eigen spdlog::spdlog tl::expected Threads::Threads ${arg_LINK})
   target_precompile_headers(${name} PRIVATE
@@ -54,14 +53,22 @@ function(lifeline_precompile_headers name)
     <tl/expected.hpp> ${arg_HEADERS})
 endfunction()
 
-if(LIFELINE_BATCHES AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+if(LIFELINE_BATCHES)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set(LIFELINE_PRECOMPILED_OPTIONS -fpch-preprocess)
+  else()
+    # Clang would refuse a header that was compiled with fewer -D than the source; GCC looks whether any of them matters.
+    set(LIFELINE_PRECOMPILED_OPTIONS "SHELL:-Xclang -fno-validate-pch" "SHELL:-Xclang -fno-pch-timestamp" -fpch-instantiate-templates)
+  endif()
   set(LIFELINE_PRECOMPILED lifeline_precompiled)
   set(LIFELINE_TEST_PRECOMPILED lifeline_test_precompiled)
   lifeline_precompile_headers(${LIFELINE_PRECOMPILED})
   lifeline_precompile_headers(${LIFELINE_TEST_PRECOMPILED} FLAGS ${LIFELINE_TEST_FLAGS}
     LINK GTest::gmock HEADERS <gmock/gmock.h> <gtest/gtest.h>)
-  # Two compilers fit in memory with all that they would clear away between times: a tenth of their time.
-  add_compile_options(--param ggc-min-heapsize=1500000)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Two compilers fit in memory with all that they would clear away between times: a tenth of their time.
+    add_compile_options(--param ggc-min-heapsize=1500000)
+  endif()
 endif()
 
 # `precompiled`: one of the above, or nothing. A target of C sources is left as it is.
@@ -69,7 +76,7 @@ function(lifeline_use_precompiled target precompiled)
   get_target_property(sources ${target} SOURCES)
   if(precompiled AND NOT sources MATCHES "\\.c(;|$)")
     target_precompile_headers(${target} REUSE_FROM ${precompiled})
-    target_compile_options(${target} PRIVATE -fpch-preprocess)
+    target_compile_options(${target} PRIVATE ${LIFELINE_PRECOMPILED_OPTIONS})
     target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:${precompiled},COMPILE_DEFINITIONS>)
   endif()
 endfunction()
@@ -142,6 +149,20 @@ function(lifeline_test name)
   include(GoogleTest)
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${labels}")
+endfunction()
+
+# lifeline_fuzzed(NAME [a.cpp ...]): library NAME, or these sources of it, are what fuzz targets look into: built so that they
+# see which ways an input takes. All of the code would take twice as long to build.
+function(lifeline_fuzzed name)
+  if(NOT LIFELINE_FUZZ)
+    return()
+  endif()
+  if(ARGN)
+    set_source_files_properties(${ARGN} PROPERTIES
+      COMPILE_OPTIONS -fsanitize=fuzzer-no-link SKIP_UNITY_BUILD_INCLUSION ON)
+  else()
+    target_compile_options(lifeline_${name} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
 endfunction()
 
 # lifeline_fuzzer(NAME_fuzz SOURCES a.cpp ... LINK libs...): a libFuzzer program in the preset's bin; nothing without LIFELINE_FUZZ.
