@@ -18,7 +18,8 @@ done
 jobs=1
 fuzz_seconds=20
 # Minutes under a sanitizer, and other numbers through code that other tests run there as well.
-repetitions='BentMapTest.*InBuilding[23]|IsMatchedNoMoreThanOnceASecond.*of20cm|NoneOf300IsMerged|Seeds.*/[0-9][0-9]+'
+# And two bent maps so close to a limit that clang's numbers judge them otherwise than g++'s.
+repetitions='MapsBentAgainstEachOther.*/50[13]|BentMapTest.*InBuilding[23]|IsMatchedNoMoreThanOnceASecond.*of20cm|NoneOf300IsMerged|Seeds.*/[0-9][0-9]+'
 
 build() {  # PRESET [TARGET...]
   local preset="$1"

@@ -94,10 +94,7 @@ void HelmetSharing::speak(SteadyTime now) {
   }
   if (relay_.is_due(now, roster_, {map_.directive(), said_})) tell_directive(wall_now);
   if (state_.state == wire::AgentState::starting) return;
-  // Who stands still for good leaves the link to the tiles.
-  const bool sparing = !link_.allows(Traffic::pose) || state_.state == wire::AgentState::finished;
-  const Duration pose_interval = sparing ? config_.sparing_pose_interval : config_.pose_interval;
-  if (is_due(pose_due_, now, pose_interval)) send_pose(wall_now);
+  if (is_due(pose_due_, now, pose_interval())) send_pose(wall_now);
   send_detections(now, wall_now);
   if (channels_.scan->has_reader() && link_.allows(Traffic::scan) &&
       is_due(scan_due_, now, config_.scan_interval)) {
@@ -105,6 +102,14 @@ void HelmetSharing::speak(SteadyTime now) {
   }
   if (auto sent = publisher_.step(now, wall_now, map_.store(), link_); !sent)
     notes_.refusals.note("tsd_tile", sent.error());
+}
+
+Duration HelmetSharing::pose_interval() const {
+  // Who stands still for good leaves the link to the tiles.
+  if (!link_.allows(Traffic::pose) || state_.state == wire::AgentState::finished)
+    return config_.sparing_pose_interval;
+  const Duration team = config_.team_pose_interval * static_cast<int>(link_.receivers());
+  return std::max(config_.pose_interval, std::min(team, config_.longest_pose_interval));
 }
 
 void HelmetSharing::send_pose(Timestamp wall_now) {

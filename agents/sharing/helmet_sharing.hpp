@@ -57,6 +57,11 @@ struct HelmetSharingConfig {
   double budget_bit_s = 256'000;    ///< of everything that it sends, to all receivers together
   std::uint64_t statuses_said = 0;  ///< while the mission was joined
   Duration pose_interval = std::chrono::milliseconds(100);
+  /// What the poses of a large team are apart, all of them together: 100 a second, whoever listens
+  /// (docs/decisions/0117). A single helmet's are never further apart than the topic's deadline
+  /// allows.
+  Duration team_pose_interval = std::chrono::milliseconds(10);
+  Duration longest_pose_interval = std::chrono::milliseconds(400);
   /// While more is sent than the budget allows.
   Duration sparing_pose_interval = std::chrono::milliseconds(500);
   Duration scan_interval = std::chrono::milliseconds(200);
@@ -169,6 +174,7 @@ class HelmetSharing {
   void hear_poses(SteadyTime now);
   [[nodiscard]] bool is_own_map(const std::string& agent_id, std::uint32_t map_id) const;
   void speak(SteadyTime now);
+  [[nodiscard]] Duration pose_interval() const;
   void send_pose(Timestamp wall_now);
   void send_scan(Timestamp wall_now);
   void tell_directive(Timestamp wall_now);

@@ -35,7 +35,7 @@ LinkBudget::LinkBudget(double rate_bit_s, std::function<std::uint64_t()> octets_
       counted_(octets_sent_()) {}
 
 void LinkBudget::measure(SteadyTime now, std::size_t receivers) {
-  receivers_ = static_cast<double>(std::max<std::size_t>(receivers, 1));
+  receivers_ = std::max<std::size_t>(receivers, 1);
   const double gained_bits =
       measured_at_ == SteadyTime{} ? 0.0 : to_seconds(now - measured_at_) * rate_bit_s_;
   measured_at_ = now;
@@ -58,7 +58,7 @@ void LinkBudget::measure(SteadyTime now, std::size_t receivers) {
 }
 
 void LinkBudget::expect(std::size_t octets) {
-  const double on_air = receivers_ * static_cast<double>(octets + wire::kOctetsAboutASample);
+  const double on_air = static_cast<double>(receivers_ * (octets + wire::kOctetsAboutASample));
   expected_octets_ += on_air;
   allowance_bits_ -= 8.0 * on_air;
 }

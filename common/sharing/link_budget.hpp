@@ -34,6 +34,8 @@ class LinkBudget {
     return static_cast<std::uint64_t>(expected_octets_);
   }
   [[nodiscard]] double rate_bit_s() const { return rate_bit_s_; }
+  /// As measure() was told, one at least.
+  [[nodiscard]] std::size_t receivers() const { return receivers_; }
 
  private:
   double rate_bit_s_;
@@ -41,7 +43,7 @@ class LinkBudget {
   double allowance_bits_;
   double expected_octets_ = 0.0;
   double unannounced_bits_ = 0.0;  ///< seen by the counter, announced by nobody, not yet charged
-  double receivers_ = 1.0;
+  std::size_t receivers_ = 1;
   std::uint64_t counted_ = 0;
   SteadyTime measured_at_{}, confirmed_at_{};
 };

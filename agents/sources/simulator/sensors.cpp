@@ -10,7 +10,6 @@
 namespace lifeline::sources {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Glass: of 8 deg, and the share of echoes that come back through a pane.
 constexpr double kMirrorCosine = 0.990268;
 constexpr double kPassesShare = 6.0 / 7.0;
@@ -24,8 +23,8 @@ sensing::RawScan SimulatedLidar::sweep(const Surroundings& around, const Motion&
   sensing::RawScan scan;
   const double step_s = options_.takes_time ? 1.0 / (options_.turns_per_s * options_.beams) : 0.0;
   scan.sweep_time = from_seconds(step_s * (options_.beams - 1));
-  scan.first_angle_rad = -kPi;
-  scan.angle_step_rad = 2.0 * kPi / options_.beams;
+  scan.first_angle_rad = -std::numbers::pi;
+  scan.angle_step_rad = 2.0 * std::numbers::pi / options_.beams;
   scan.range_min_m = options_.range_min_m;
   scan.range_max_m = options_.range_max_m;
   scan.ranges_m.reserve(static_cast<std::size_t>(options_.beams));
@@ -79,7 +78,9 @@ float SimulatedLidar::read(double true_range_m) {
 }
 
 SimulatedAhrs::SimulatedAhrs(std::uint64_t seed)
-    : noise_(seed), tilt_noise_(stir(seed, 1)), zero_rad_(Draw(stir(seed, 0)).between(-kPi, kPi)) {}
+    : noise_(seed),
+      tilt_noise_(stir(seed, 1)),
+      zero_rad_(Draw(stir(seed, 0)).between(-std::numbers::pi, std::numbers::pi)) {}
 
 sensing::Attitude SimulatedAhrs::measure(double true_yaw_rad, double dt_s) {
   zero_rad_ += kDriftSigmaDegPerRootS * kDegree * std::sqrt(dt_s) * noise_.next();

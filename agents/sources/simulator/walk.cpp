@@ -12,7 +12,6 @@ namespace lifeline::sources {
 namespace {
 
 constexpr double kStepS = 0.01;
-constexpr double kPi = std::numbers::pi;
 constexpr double kSpeedUpMs2 = 0.8;
 constexpr double kSlowDownMs2 = WalkLimits::kAccelerationMs2;
 constexpr double kBodyTurnRadS = 72.0 * kDegree;
@@ -35,10 +34,10 @@ Walk::Walk(const FreeSpace& space, const WalkerNumber& number, Head head)
     : space_(space),
       tour_(space, number),
       draw_(stir(stir(number.seed, 4), static_cast<std::uint64_t>(number.walker))),
-      sways_{{7.0 * kDegree, draw_.between(3.8, 4.6), draw_.between(0.0, 2.0 * kPi)},
-             {5.0 * kDegree, draw_.between(6.2, 7.4), draw_.between(0.0, 2.0 * kPi)}},
+      sways_{{7.0 * kDegree, draw_.between(3.8, 4.6), draw_.between(0.0, 2.0 * std::numbers::pi)},
+             {5.0 * kDegree, draw_.between(6.2, 7.4), draw_.between(0.0, 2.0 * std::numbers::pi)}},
       cruise_m_s_(draw_.between(1.0, WalkLimits::kSpeedMs)),
-      heading_rad_(draw_.between(-kPi, kPi)) {
+      heading_rad_(draw_.between(-std::numbers::pi, std::numbers::pi)) {
   if (head == Head::crawling) cruise_m_s_ *= kCrawlingPace;
   begin_round();
   if (head != Head::still) {
@@ -116,7 +115,8 @@ HeadPose Walk::head() const {
   const double t_s = static_cast<double>(steps_) * kStepS;
   double yaw = heading_rad_;
   for (const Sway& sway : sways_) {
-    yaw += sway.amplitude_rad * std::sin(2.0 * kPi * t_s / sway.period_s + sway.phase_rad);
+    yaw += sway.amplitude_rad *
+           std::sin(2.0 * std::numbers::pi * t_s / sway.period_s + sway.phase_rad);
   }
   if (!motion_) return Pose2{p.x(), p.y(), normalise_angle(yaw)};
   const HeadMotion::Lean lean = motion_->at(t_s, speed_m_s_ / cruise_m_s_);

@@ -95,7 +95,8 @@ double or_missed(std::optional<double> value) {
 
 double worst_pose_age_s(RadioFleet& fleet) {
   double worst = 0.0;
-  for (auto& [helmet, ages] : fleet.take_pose_ages()) worst = std::max(worst, quantile(ages, 0.95));
+  for (const auto& [helmet, poses] : fleet.take_poses())
+    worst = std::max(worst, quantile(ages_on_arrival_s(poses), 0.95));
   return worst;
 }
 
@@ -171,10 +172,15 @@ Result<void> narrow_link(Bench& bench) {
   auto begun = begin(bench, "narrow link", 0.0, {RadioFleet::host_of(0)});
   if (!begun) return forward_error(begun);
   if (auto set = begun->net->set_rate(RadioFleet::host_of(0), 250); !set) return set;
+  const double begun_at_s = wall_now_s();
   begun->fleet->listen(from_seconds(bench.options.walk_s));
-  auto ages = begun->fleet->take_pose_ages();
+  const auto poses = begun->fleet->take_poses()["alpha"];
+  bench.row("250 kbit/s for a helmet: until its first pose arrives",
+            poses.empty() ? kMissed : poses.front().heard_at_s - begun_at_s, "s", {});
   bench.row("250 kbit/s for a helmet: age of its pose on arrival, p95",
-            ages["alpha"].empty() ? kMissed : quantile(ages["alpha"], 0.95), "s", 1.0);
+            poses.empty() ? kMissed : quantile(ages_on_arrival_s(poses), 0.95), "s", {});
+  bench.row("250 kbit/s for a helmet: age of its newest pose at the others, p95",
+            poses.empty() ? kMissed : quantile(ages_shown_s(poses, wall_now_s()), 0.95), "s", 1.0);
   tell_kinds(bench, "250 kbit/s for a helmet", *begun);
   return {};
 }

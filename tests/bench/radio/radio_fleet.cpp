@@ -181,8 +181,7 @@ void RadioFleet::take_line(const std::string& line) {
   const auto told = nlohmann::json::parse(line, nullptr, false);
   if (!told.is_object()) return;
   if (told.contains("pose")) {
-    pose_ages_s_[told["pose"]].push_back(told["heard_at_s"].get<double>() -
-                                         told["sent_at_s"].get<double>());
+    poses_[told["pose"]].push_back({told["sent_at_s"], told["heard_at_s"]});
   } else if (told.contains("status")) {
     heard_[told["status"]] = {told["heard_at_s"],    told["role"] == "helmet",  told["finished"],
                               told["explored_m2"],   told["common_map_sha256"], told["scans"],

@@ -12,6 +12,7 @@
 
 #include "common/base/time.hpp"
 #include "deploy/demo/child_process.hpp"
+#include "tests/bench/radio/pose_ages.hpp"
 #include "tests/bench/radio/radio_net.hpp"
 
 namespace lifeline::bench {
@@ -96,9 +97,9 @@ class RadioFleet {
   /// Proportional share of memory (PSS) of each machine's process, in MB.
   [[nodiscard]] std::map<std::string, double> memory_mb();
   [[nodiscard]] const std::map<std::string, HeardStatus>& heard() const { return heard_; }
-  /// Age of each heard pose on arrival, in seconds, by helmet.
-  [[nodiscard]] std::map<std::string, std::vector<double>> take_pose_ages() {
-    return std::exchange(pose_ages_s_, {});
+  /// Each heard pose, by helmet, in order of arrival.
+  [[nodiscard]] std::map<std::string, std::vector<HeardPose>> take_poses() {
+    return std::exchange(poses_, {});
   }
 
  private:
@@ -122,7 +123,7 @@ class RadioFleet {
   std::ifstream watch_;
   std::string begun_line_;
   std::map<std::string, HeardStatus> heard_;
-  std::map<std::string, std::vector<double>> pose_ages_s_;
+  std::map<std::string, std::vector<HeardPose>> poses_;
 };
 
 [[nodiscard]] double wall_now_s();

@@ -138,6 +138,32 @@ TEST_F(HelmetSharingTest, NothingIsPublishedBeforeTheFirstPose) {
   EXPECT_TRUE(poses->take().empty());
 }
 
+TEST_F(HelmetSharingTest, ALargeTeamSharesAHundredPosesASecond) {
+  budget_bit_s_ = 50e6;
+  auto alpha = make_helmet("alpha");
+  auto poses = bus_.reader<wire::HelmetPose>();
+  auto statuses = bus_.writer<wire::AgentStatus>();
+  std::uint64_t sequence = 0;
+  const auto count_poses = [&](int peers) {
+    std::size_t sent = 0;
+    for (int second = 0; second < 10; ++second) {
+      for (int peer = 0; peer < peers; ++peer) {
+        wire::AgentStatus status;
+        status.agent_id = "peer" + std::to_string(peer);
+        status.envelope = test::envelope(status.agent_id, ++sequence);
+        EXPECT_TRUE(statuses->put(status));
+      }
+      for (int step = 0; step < 20; ++step) {
+        run({alpha.get()}, milliseconds(50));
+        sent += poses->take().size();
+      }
+    }
+    return sent;
+  };
+  EXPECT_NEAR(static_cast<double>(count_poses(8)), 100.0, 2.0) << "a small one needs not";
+  EXPECT_NEAR(static_cast<double>(count_poses(32)), 29.0, 3.0) << "one in 350 ms, of steps of 50";
+}
+
 class MissionJoinTest : public HelmetSharingTest {
  protected:
   std::optional<Result<MapId>> join(std::uint64_t incarnation, HelmetSharing* present = nullptr) {
