@@ -148,6 +148,7 @@ Result<void> share_map(const AgentRunOptions& options, const AgentSettings& sett
   }
   share(*mapping.threads, mapping.mailbox, helmet, settings.match_working_map,
         {storage, beside.hud, recording ? &*recording : nullptr}, participant);
+  helmet.finish();
   stop_source.request_stop();
   mapping.threads->stop();
   const Result<void> recorded = recording ? recording->finish(helmet) : Result<void>{};

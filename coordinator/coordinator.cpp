@@ -69,9 +69,7 @@ void Coordinator::step() {
     take_outcome(now);
     match_next();
   }
-  for (const TileIndex tile : common_map_.update(store_)) {
-    if (map_listener_) map_listener_(tile);
-  }
+  if (fusing_.is_due(now)) update_common_map();
   if (!settings_.only_listens && now >= status_due_) {
     status_due_ = now + kStatusInterval;
     wire::AgentStatus own = status();
@@ -79,6 +77,18 @@ void Coordinator::step() {
     if (auto sent = channels_.status->put(own); !sent) spdlog::warn("{}", sent.error().text);
     said_ = std::move(own);
   }
+}
+
+void Coordinator::finish() {
+  update_common_map();
+}
+
+void Coordinator::update_common_map() {
+  const SteadyTime begun = clock_.steady_now();
+  for (const TileIndex tile : common_map_.update(store_)) {
+    if (map_listener_) map_listener_(tile);
+  }
+  fusing_.took(begun, clock_.steady_now());
 }
 
 void Coordinator::note_changes(SteadyTime now) {
@@ -249,7 +259,7 @@ wire::AgentStatus Coordinator::status() const {
     std::vector<LayerKey> members;
     for (const auto& placement : common_map_.placements()) members.push_back(placement.layer);
     status.fingerprint = sharing::fingerprint(Epoch{status.epoch_applied}, members, store_);
-    status.common_map_sha256 = common_map_.sha256();
+    if (common_map_.is_up_to_date()) status.common_map_sha256 = common_map_.sha256();
   }
   for (const auto& [layer, tiles] : store_.layers()) {
     status.layers.push_back({sharing::to_layer_name(layer),

@@ -13,6 +13,7 @@
 #include "common/sharing/detection_list.hpp"
 #include "common/sharing/envelope_stamper.hpp"
 #include "common/sharing/fused_map.hpp"
+#include "common/sharing/fusing_pace.hpp"
 #include "common/sharing/kept_layers.hpp"
 #include "common/sharing/one_way_watch.hpp"
 #include "common/sharing/pose_watch.hpp"
@@ -111,6 +112,9 @@ class Coordinator {
   void set_map_listener(MapListener listener) { map_listener_ = std::move(listener); }
 
   void step();
+  /// After the last step(): brings the common map up to date, which a busy machine may be behind
+  /// with.
+  void finish();
 
   // What the commander decides (coordinator_orders.cpp). Each answers an error, for people, where
   // it cannot be done.
@@ -184,6 +188,7 @@ class Coordinator {
   void stay_heard(SteadyTime now);
   /// Not yet: others follow an answer that is not known here, and ours would be a part of it.
   [[nodiscard]] bool holds_back(SteadyTime now);
+  void update_common_map();
   void note_changes(SteadyTime now);
   void hear_poses();
   void hear_statuses(SteadyTime now);
@@ -208,6 +213,7 @@ class Coordinator {
   SteadyTime started_;
   sharing::ReplicaStore store_;
   sharing::FusedMap common_map_;
+  sharing::FusingPace fusing_;
   sharing::DetectionList detections_;
   sharing::Roster roster_;
   sharing::OneWayWatch one_way_;

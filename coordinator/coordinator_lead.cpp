@@ -14,7 +14,7 @@ constexpr Duration kHoldBackAtLeast = std::chrono::seconds(2);
 constexpr Duration kHoldBackAtMost = std::chrono::seconds(6);
 constexpr Duration kAssertInterval = std::chrono::milliseconds(500);
 constexpr Duration kRepeatDirectiveAfter = std::chrono::seconds(1);
-// A status may tell tiles that the map it tells does not hold yet; the next ones do not.
+// Not by one status alone: what outranks costs everybody a new common map.
 constexpr Duration kContradictedFor = std::chrono::seconds(3);
 
 }  // namespace

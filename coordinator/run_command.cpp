@@ -144,6 +144,7 @@ Result<Settlement> lead_or_follow(const CoordinatorRunOptions& options, Coordina
     if (beside.page != nullptr) beside.page->step(clock.steady_now());
     progress.step(coordinator, clock.steady_now());
   }
+  coordinator.finish();
   if (auto finished = beside.outlets.finish(coordinator); !finished) return forward_error(finished);
   if (options.report) {
     if (auto written = write_report(*options.report, coordinator, end.outcome()); !written)

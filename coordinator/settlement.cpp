@@ -56,7 +56,7 @@ Settlement settlement(const Coordinator& coordinator, std::size_t helmets) {
       return placement.layer.agent_id.text() == helmet->agent_id;
     });
     if (!member) return Settlement::apart;
-    if (helmet->fingerprint != own.fingerprint ||
+    if (own.common_map_sha256 == Sha256Digest{} || helmet->fingerprint != own.fingerprint ||
         helmet->common_map_sha256 != own.common_map_sha256) {
       return Settlement::working;
     }

@@ -81,12 +81,25 @@ void HelmetSharing::step() {
   speak(now);
   exchange_.step(now, clock_.wall_now(), roster_, map_.store(), link_);
   publisher_.outrank(exchange_.take_newer_elsewhere());
+  update_map(now);
+}
+
+void HelmetSharing::finish() {
   map_.update();
+}
+
+void HelmetSharing::update_map(SteadyTime now) {
+  map_.mark_changes();
+  if (!fusing_.is_due(now)) return;
+  const SteadyTime begun = clock_.steady_now();
+  map_.update();
+  fusing_.took(begun, clock_.steady_now());
 }
 
 void HelmetSharing::speak(SteadyTime now) {
   const Timestamp wall_now = clock_.wall_now();
   if (is_due(status_due_, now, config_.status_interval)) {
+    update_map(now);  // the map that a status tells is that of the tiles that it tells
     wire::AgentStatus own = status();
     own.envelope = status_stamper_.next(wall_now);
     send(*channels_.status, own);

@@ -13,6 +13,7 @@
 #include "agents/sharing/tile_publisher.hpp"
 #include "common/sharing/alert_exchange.hpp"
 #include "common/sharing/detection_list.hpp"
+#include "common/sharing/fusing_pace.hpp"
 #include "common/sharing/link_budget.hpp"
 #include "common/sharing/one_way_watch.hpp"
 #include "common/sharing/pose_watch.hpp"
@@ -132,6 +133,8 @@ class HelmetSharing {
   }
 
   void step();
+  /// After the last step(): brings the maps up to date, which a busy machine may be behind with.
+  void finish();
 
   // What its wearer does (helmet_alerts.cpp).
 
@@ -174,6 +177,7 @@ class HelmetSharing {
   void hear_poses(SteadyTime now);
   [[nodiscard]] bool is_own_map(const std::string& agent_id, std::uint32_t map_id) const;
   void speak(SteadyTime now);
+  void update_map(SteadyTime now);
   [[nodiscard]] Duration pose_interval() const;
   void send_pose(Timestamp wall_now);
   void send_scan(Timestamp wall_now);
@@ -192,6 +196,7 @@ class HelmetSharing {
   Roster roster_;
   DirectiveRelay relay_;
   wire::AgentStatus said_;  ///< the last own status
+  FusingPace fusing_;
   OneWayWatch one_way_;
   HelmetState state_;
   DetectionList detections_;

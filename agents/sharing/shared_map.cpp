@@ -39,16 +39,21 @@ void SharedMap::place(const wire::MergeDirective& directive) {
   peers_map_.place(std::move(peers), store_);
 }
 
-void SharedMap::update() {
-  const auto taken_in = store_.take_changed();
-  for (const auto& changed : taken_in) {
+void SharedMap::mark_changes() {
+  for (auto& changed : store_.take_changed()) {
     common_map_.mark(changed);
     peers_map_.mark(changed);
+    taken_in_.push_back(std::move(changed));
   }
+}
+
+void SharedMap::update() {
+  mark_changes();
   for (const TileIndex tile : common_map_.update(store_)) {
     if (map_listener_) map_listener_(tile);
   }
-  if (fused_listener_) tell_fused(taken_in);
+  if (fused_listener_) tell_fused(taken_in_);
+  taken_in_.clear();
   const auto changed = peers_map_.update(store_);
   changed_peer_tiles_.insert(changed_peer_tiles_.end(), changed.begin(), changed.end());
 }
@@ -87,7 +92,7 @@ RevisionDigest SharedMap::fingerprint() const {
 }
 
 Sha256Digest SharedMap::common_map_sha256() const {
-  return shares() ? common_map_.sha256() : Sha256Digest{};
+  return shares() && common_map_.is_up_to_date() ? common_map_.sha256() : Sha256Digest{};
 }
 
 }  // namespace lifeline::sharing

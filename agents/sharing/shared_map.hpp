@@ -34,6 +34,8 @@ class SharedMap {
 
   /// Brings both maps up to date with layers and directive.
   void update();
+  /// Takes note of what an update will have to do.
+  void mark_changes();
 
   /// Hears of each tile, once it is in the common map, that was taken in since the last update().
   using FusedListener = std::function<void(const LayerKey&, TileIndex, Revision)>;
@@ -52,7 +54,7 @@ class SharedMap {
   [[nodiscard]] const FusedMap& common_map() const { return common_map_; }
   /// Of epoch and members' revision vectors; all zero while there is no common map.
   [[nodiscard]] RevisionDigest fingerprint() const;
-  /// All zero while there is no common map.
+  /// All zero while there is no common map, or it is behind layers and directive.
   [[nodiscard]] Sha256Digest common_map_sha256() const;
   [[nodiscard]] bool shares() const { return !common_map_.placements().empty(); }
 
@@ -66,6 +68,7 @@ class SharedMap {
   FusedMap peers_map_;
   wire::MergeDirective directive_;
   double own_weight_ = 0.5;
+  std::vector<ReplicaStore::ChangedTile> taken_in_;  ///< since the last update
   FusedListener fused_listener_;
   MapListener map_listener_;
   std::vector<TileIndex> changed_peer_tiles_;

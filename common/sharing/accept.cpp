@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "common/base/sha256.hpp"
 #include "common/grid/tile_index.hpp"
 #include "common/wire/limits.hpp"
 
@@ -68,8 +69,11 @@ bool outranks(const wire::MergeDirective& one, const wire::MergeDirective& other
 }
 
 bool holds_another_map(const wire::AgentStatus& one, const wire::AgentStatus& other) {
-  return one.epoch_applied == other.epoch_applied &&
-         one.common_map_sha256 != other.common_map_sha256 &&
+  const bool both_told =
+      one.common_map_sha256 != Sha256Digest{} && other.common_map_sha256 != Sha256Digest{};
+  const bool other_members = one.fingerprint != other.fingerprint;
+  const bool other_map = both_told && one.common_map_sha256 != other.common_map_sha256;
+  return one.epoch_applied == other.epoch_applied && (other_members || other_map) &&
          std::ranges::equal(one.layers, other.layers, [](const auto& a, const auto& b) {
            return a.layer == b.layer && a.revisions == b.revisions;
          });

@@ -32,7 +32,8 @@ namespace lifeline::sharing {
 /// coordinators that did not hear each other both wrote one; then every machine decides alike.
 [[nodiscard]] bool outranks(const wire::MergeDirective& one, const wire::MergeDirective& other);
 
-/// Whether of two statuses with one epoch and the same tiles each tells another common map. Where
+/// Whether of two statuses with one epoch and the same tiles each tells other members, or another
+/// common map. Where
 /// both speak of the same group of layers, they follow two directives of that epoch.
 [[nodiscard]] bool holds_another_map(const wire::AgentStatus& one, const wire::AgentStatus& other);
 

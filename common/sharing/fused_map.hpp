@@ -33,6 +33,9 @@ class FusedMap {
   /// Fuses what was marked; answers the tiles whose cells changed or that vanished.
   std::vector<TileIndex> update(const ReplicaStore& store);
 
+  /// Nothing that was marked or placed waits for an update.
+  [[nodiscard]] bool is_up_to_date() const { return marked_.empty(); }
+
   [[nodiscard]] const std::map<TileIndex, FusedTile>& tiles() const { return tiles_; }
   [[nodiscard]] const std::vector<Placement>& placements() const { return placements_; }
 

@@ -207,7 +207,7 @@ struct AgentStatus {
   float slam_ms_median = 0.0F;
   std::uint64_t epoch_applied = 0;
   std::array<std::uint8_t, 16> fingerprint{};        ///< of epoch and revision vector
-  std::array<std::uint8_t, 32> common_map_sha256{};  ///< all zero = no common map yet
+  std::array<std::uint8_t, 32> common_map_sha256{};  ///< all zero: none, or not up to date
   std::vector<LayerDigest> layers;
   std::vector<std::string> peers_heard;
 };
