@@ -210,9 +210,10 @@ TEST(AhrsSource, AWrongUnitOfTheRatesIsFoundAndSpoilsNothing) {
   auto source = line.open();
   ASSERT_TRUE(source);
   int samples = 0;
-  ASSERT_TRUE(read_until(
-      **source, [&] { return samples > 200; }, [&](const auto&) { ++samples; }));
-  EXPECT_EQ((*source)->health(), AttitudeHealth::good);
+  // A busy machine may let some be missed, which degrades it for a while.
+  EXPECT_TRUE(read_until(
+      **source, [&] { return samples > 200 && (*source)->health() == AttitudeHealth::good; },
+      [&](const auto&) { ++samples; }));
 }
 
 TEST(AhrsSource, ALeapOfTheHeadingIsReportedBeforeAnybodyUsesIt) {
