@@ -41,7 +41,7 @@ bool is_first(Octets acknack) {
 
 constexpr Duration kAsTheyCome = std::chrono::seconds(2);
 constexpr Duration kFirstPause = std::chrono::milliseconds(200);
-constexpr Duration kLongestPause = std::chrono::seconds(2);
+constexpr Duration kLongestPause = std::chrono::milliseconds(500);
 // Fast DDS has stopped asking; whoever asks later begins anew.
 constexpr Duration kEnded = std::chrono::seconds(1);
 // Beyond, questions pass as they come: far more than a fleet's readers.

@@ -15,7 +15,7 @@ namespace lifeline::dds {
 /// 2.9 repeats them every 70 ms for each reader and each writer until a heartbeat comes: on a link
 /// that is too narrow they crowd out the very announcements that would end them (decision 0115).
 /// Those of the first two seconds go as they come, since
-/// any may be lost; then the pauses grow by half each time, from 0.2 s to 2 s. Thread-safe.
+/// any may be lost; then the pauses grow by half each time, from 0.2 s to 0.5 s. Thread-safe.
 class FirstAckNacks {
  public:
   /// Whether an RTPS message may go now. Always, unless it holds such an ACKNACK and nothing else.
