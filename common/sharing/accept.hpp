@@ -33,8 +33,8 @@ namespace lifeline::sharing {
 [[nodiscard]] bool outranks(const wire::MergeDirective& one, const wire::MergeDirective& other);
 
 /// Whether of two statuses with one epoch and the same tiles each tells other members, or another
-/// common map. Where
-/// both speak of the same group of layers, they follow two directives of that epoch.
+/// common map. Where both speak of the same group of layers, they follow two directives of that
+/// epoch.
 [[nodiscard]] bool holds_another_map(const wire::AgentStatus& one, const wire::AgentStatus& other);
 
 /// Whether an epoch that somebody speaks of can be true for who knows `known`: no mission has a
