@@ -44,8 +44,7 @@ class Following : public testing::Test {
     auto channels = coordinator_channels(bus_);
     channels.directive.reset();
     channels.directives =
-        std::make_unique<DeafInbox>(bus_.reader<wire::MergeDirective>(), standby_is_deaf_);
-    if (!standby) channels.directives = bus_.reader<wire::MergeDirective>();
+        std::make_unique<DeafInbox>(bus_.reader<wire::MergeDirective>(), directives_are_lost_);
     channels.open_directive = [this] {
       return Result<std::unique_ptr<wire::Outbox<wire::MergeDirective>>>(
           bus_.writer<wire::MergeDirective>());
@@ -79,7 +78,7 @@ class Following : public testing::Test {
   ManualClock clock_;
   wire::LoopbackBus bus_;
   InlineMatchWorker worker_{matching::MatchConfig{}};
-  bool standby_is_deaf_ = false;
+  bool directives_are_lost_ = false;
   std::unique_ptr<wire::Outbox<wire::AgentStatus>> statuses_ = bus_.writer<wire::AgentStatus>();
   std::uint64_t sequence_ = 0;
 };
@@ -98,13 +97,13 @@ TEST_F(Following, AStandbyThatGivesWayKnowsWhatWasSaidWhileItStillLed) {
 }
 
 TEST_F(Following, AStandbyThatMissedTheDirectiveIsToldAgain) {
-  standby_is_deaf_ = true;
+  directives_are_lost_ = true;
   const auto primary = start_with_directive("vehicle");
   const auto standby = start("spare", true);
   pass(seconds(4), {primary.get(), standby.get()});
   ASSERT_TRUE(primary->leads());
   ASSERT_EQ(standby->directive().epoch, 0U);
-  standby_is_deaf_ = false;
+  directives_are_lost_ = false;
   pass(seconds(3), {primary.get(), standby.get()});
   EXPECT_EQ(standby->directive().epoch, primary->directive().epoch);
 }
