@@ -61,7 +61,7 @@ void Coordinator::step() {
   sharing::hear(channels_.tiles->take(), "tsd_tile", mission_id, now, notes_,
                 [&](const wire::TsdTile& sample) { return store_.apply(sample); });
   hear_detections(now);
-  link_.measure(now, roster_.present(now).size());
+  link_.measure(now, sharing::audience(roster_, settings_.speaker.id, now));
   exchange_.step(now, clock_.wall_now(), roster_, store_, link_);
   note_changes(now);
   if (!settings_.only_listens) {  // who decides nothing needs nothing to decide by
@@ -265,7 +265,7 @@ wire::AgentStatus Coordinator::status() const {
     status.layers.push_back({sharing::to_layer_name(layer),
                              static_cast<std::uint32_t>(tiles.size()), store_.digest(layer)});
   }
-  status.peers_heard = roster_.present(clock_.steady_now());
+  roster_.tell_peers(clock_.steady_now(), status);
   return status;
 }
 

@@ -70,7 +70,7 @@ struct CoordinatorSettings {
   GridGeometry geometry;
   merging::MergeScheduleConfig schedule;
   merging::DirectiveConfig directive;
-  double budget_bit_s = 1'000'000;  ///< of everything that it sends, to all receivers together
+  double budget_bit_s = 4'000'000;  ///< of everything that it sends, to all receivers together
   LeadershipConfig leadership{};
   bool only_listens = false;  ///< what it sends reaches nobody, as in a replay
   /// The common map is that of this layer's group, as in a replay of what a helmet recorded; the

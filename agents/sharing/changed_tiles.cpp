@@ -90,7 +90,7 @@ void ChangedTiles::weigh(Tile& tile, SteadyTime now, double cell_m2) const {
     tile.lacking_m2_s += counts_m2 * to_seconds(now - tile.weighed_at);
   }
   tile.weighed_at = now;
-  if (!tile.newest || now - tile.compared_at < config_.min_interval) return;
+  if (!tile.newest || now - tile.compared_at < interval()) return;
   tile.compared_at = now;
   compare(tile, cell_m2);
   if (!goes(tile)) tile.lacking_m2_s = 0.0;
@@ -114,6 +114,10 @@ void ChangedTiles::compare(Tile& tile, double cell_m2) const {
   if (*tile.next == before) tile.next.reset();
 }
 
+Duration ChangedTiles::interval() const {
+  return std::max(config_.min_interval, least_interval_);
+}
+
 bool ChangedTiles::goes(const Tile& tile) const {
   return tile.next && (!tile.sent || tile.differs_m2 >= config_.least_m2);
 }
@@ -126,7 +130,7 @@ double ChangedTiles::enough_m2_s(const Tile& tile) const {
 }
 
 bool ChangedTiles::is_due(const Tile& tile, SteadyTime now, bool quiet) const {
-  if (!goes(tile) || (tile.sent && now - tile.sent_at < config_.min_interval)) return false;
+  if (!goes(tile) || (tile.sent && now - tile.sent_at < interval())) return false;
   return quiet || tile.lacking_m2_s >= enough_m2_s(tile) ||
          now - tile.differs_since >= config_.longest;
 }

@@ -40,6 +40,8 @@ class ChangedTiles {
   void put(const MapTiles& tiles, SteadyTime scanned_at = {});
   /// Whether none will come for now: all that is left goes.
   void set_finished(bool finished) { finished_ = finished; }
+  /// Revisions of one tile are at least so far apart, whatever the configuration says.
+  void set_least_interval(Duration interval) { least_interval_ = interval; }
   /// Others hold the tile so. `at`: since when, or long ago.
   void set_sent(TileIndex tile, std::shared_ptr<const QuantisedTile> cells, SteadyTime at = {});
 
@@ -71,10 +73,12 @@ class ChangedTiles {
   void weigh(Tile& tile, SteadyTime now, double cell_m2) const;
   void compare(Tile& tile, double cell_m2) const;
   [[nodiscard]] bool goes(const Tile& tile) const;
+  [[nodiscard]] Duration interval() const;
   [[nodiscard]] double enough_m2_s(const Tile& tile) const;
   [[nodiscard]] bool is_due(const Tile& tile, SteadyTime now, bool quiet) const;
 
   HoldBackConfig config_;
+  Duration least_interval_{};
   bool coarse_;
   std::map<TileIndex, Tile> tiles_;
   bool finished_ = false, came_in_ = false;

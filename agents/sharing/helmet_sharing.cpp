@@ -76,7 +76,7 @@ void HelmetSharing::step() {
   hear_tiles(now);
   hear_detections(now);
   hear_poses(now);
-  link_.measure(now, roster_.present(now).size());
+  link_.measure(now, audience(roster_, config_.speaker.id, now));
   // Own tiles first: what others lack of these nobody else can send.
   speak(now);
   exchange_.step(now, clock_.wall_now(), roster_, map_.store(), link_);
@@ -206,8 +206,7 @@ wire::AgentStatus HelmetSharing::status() const {
     status.layers.push_back({to_layer_name(layer), static_cast<std::uint32_t>(tiles.size()),
                              map_.store().digest(layer)});
   }
-  status.peers_heard = roster_.present(clock_.steady_now());
-  if (status.peers_heard.size() > wire::kMaxPeers) status.peers_heard.resize(wire::kMaxPeers);
+  roster_.tell_peers(clock_.steady_now(), status);
   return status;
 }
 

@@ -8,10 +8,16 @@ namespace lifeline::sharing {
 
 TilePublisher::TilePublisher(TilePublisherConfig config, LayerKey layer, Speaker speaker,
                              wire::Outbox<wire::TsdTile>& outbox)
-    : layer_(std::move(layer)),
+    : config_(config),
+      layer_(std::move(layer)),
       stamper_(std::move(speaker)),
       outbox_(outbox),
       changed_(config.hold_back, config.coarse) {}
+
+Duration TilePublisher::team_interval(std::size_t receivers) const {
+  const std::size_t beyond = receivers - std::min(receivers, config_.usual_receivers);
+  return static_cast<int>(beyond) * config_.interval_beyond;
+}
 
 void TilePublisher::resume(const KeptTiles& tiles, Revision newest_before) {
   newest_before_ = newest_before;
@@ -25,6 +31,7 @@ void TilePublisher::resume(const KeptTiles& tiles, Revision newest_before) {
 Result<void> TilePublisher::step(SteadyTime now, Timestamp wall_now, ReplicaStore& store,
                                  LinkBudget& link) {
   const double cell_m2 = store.geometry().cell_size_m * store.geometry().cell_size_m;
+  changed_.set_least_interval(team_interval(link.receivers()));
   for (const ChangedTiles::Due& next : changed_.due(now, cell_m2)) {
     if (!link.allows(Traffic::tile)) break;
     if (auto sent = publish(next, now, wall_now, store, link); !sent) return sent;

@@ -20,6 +20,10 @@ struct TilePublisherConfig {
   HoldBackConfig hold_back;
   /// Publish coarse cells (wire::coarse) and not those given: an eighth of the octets.
   bool coarse = true;
+  /// Each receiver beyond the usual ones sets the revisions of one tile so much further apart:
+  /// everybody takes in everybody's (docs/decisions/0120).
+  std::size_t usual_receivers = 10;
+  Duration interval_beyond = std::chrono::milliseconds(100);
 };
 
 /// Publishes a helmet's own changed tiles, once they are due and the link's budget allows. What was
@@ -70,6 +74,9 @@ class TilePublisher {
   [[nodiscard]] Result<void> send(std::vector<wire::TsdTile> parts, Timestamp wall_now,
                                   LinkBudget& link);
 
+  [[nodiscard]] Duration team_interval(std::size_t receivers) const;
+
+  TilePublisherConfig config_;
   LayerKey layer_;
   EnvelopeStamper stamper_;
   wire::Outbox<wire::TsdTile>& outbox_;

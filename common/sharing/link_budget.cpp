@@ -28,33 +28,39 @@ double reserve_of(Traffic traffic) {
 
 }  // namespace
 
-LinkBudget::LinkBudget(double rate_bit_s, std::function<std::uint64_t()> octets_sent)
-    : rate_bit_s_(rate_bit_s),
+Audience audience(const Roster& roster, const AgentId& self, SteadyTime now) {
+  return {roster.present(now).size(), roster.own_delay(self.text(), now)};
+}
+
+LinkBudget::LinkBudget(double most_bit_s, std::function<std::uint64_t()> octets_sent)
+    : pace_(most_bit_s),
       octets_sent_(std::move(octets_sent)),
-      allowance_bits_(rate_bit_s),
+      allowance_bits_(most_bit_s),
       counted_(octets_sent_()) {}
 
-void LinkBudget::measure(SteadyTime now, std::size_t receivers) {
-  receivers_ = std::max<std::size_t>(receivers, 1);
+void LinkBudget::measure(SteadyTime now, const Audience& audience) {
+  receivers_ = std::max<std::size_t>(audience.receivers, 1);
+  const std::uint64_t counted = octets_sent_();
+  pace_.step(now, counted, audience.delay);
+  const double rate_bit_s = pace_.rate_bit_s();
   const double gained_bits =
-      measured_at_ == SteadyTime{} ? 0.0 : to_seconds(now - measured_at_) * rate_bit_s_;
+      measured_at_ == SteadyTime{} ? 0.0 : to_seconds(now - measured_at_) * rate_bit_s;
   measured_at_ = now;
   allowance_bits_ += gained_bits;
-  const std::uint64_t counted = octets_sent_();
   const double sent = static_cast<double>(counted - std::min(counted, counted_));
   counted_ = counted;
   const double confirmed = std::min(sent, expected_octets_);
   expected_octets_ -= confirmed;
   unannounced_bits_ += 8.0 * (sent - confirmed);
   const double charged = std::min(unannounced_bits_, kMostUnannounced * gained_bits);
-  unannounced_bits_ = std::min(unannounced_bits_ - charged, rate_bit_s_);
+  unannounced_bits_ = std::min(unannounced_bits_ - charged, rate_bit_s);
   allowance_bits_ -= charged;
   if (sent > 0.0 || expected_octets_ == 0.0) confirmed_at_ = now;
   if (now - confirmed_at_ > kForgetAfter) {
     allowance_bits_ += 8.0 * std::exchange(expected_octets_, 0.0);
     confirmed_at_ = now;
   }
-  allowance_bits_ = std::min(allowance_bits_, rate_bit_s_);
+  allowance_bits_ = std::min(allowance_bits_, rate_bit_s);
 }
 
 void LinkBudget::expect(std::size_t octets) {
@@ -64,7 +70,7 @@ void LinkBudget::expect(std::size_t octets) {
 }
 
 bool LinkBudget::allows(Traffic traffic) const {
-  return allowance_bits_ > reserve_of(traffic) * rate_bit_s_;
+  return allowance_bits_ > reserve_of(traffic) * pace_.rate_bit_s();
 }
 
 }  // namespace lifeline::sharing

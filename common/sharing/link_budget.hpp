@@ -3,8 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include "common/base/ids.hpp"
 #include "common/base/time.hpp"
+#include "common/sharing/link_pace.hpp"
+#include "common/sharing/roster.hpp"
 
 namespace lifeline::sharing {
 
@@ -12,17 +16,26 @@ namespace lifeline::sharing {
 /// always go.
 enum class Traffic { pose, tile, scan };
 
-/// Keeps what a participant really sends to a rate, whatever it sends: each class may draw on the
-/// allowance down to a reserve that is kept for the more urgent ones. Allowance gathers for at most
-/// one second. One owner, not thread-safe.
+/// Who listens.
+struct Audience {
+  std::size_t receivers = 0;
+  std::optional<Duration> delay{};  ///< of our own samples, as they tell it (Roster::own_delay)
+};
+
+/// Whom `self` speaks to.
+[[nodiscard]] Audience audience(const Roster& roster, const AgentId& self, SteadyTime now);
+
+/// Keeps what a participant really sends to a rate, whatever it sends, and to less where the link
+/// passes less (LinkPace): each class may draw on the allowance down to a reserve that is kept for
+/// the more urgent ones. Allowance gathers for at most one second. One owner, not thread-safe.
 class LinkBudget {
  public:
   /// `octets_sent`: everything that has left so far, as whoever counts it last saw it.
-  LinkBudget(double rate_bit_s, std::function<std::uint64_t()> octets_sent);
+  LinkBudget(double most_bit_s, std::function<std::uint64_t()> octets_sent);
 
   /// Takes time and the counter into account; to be called before anything is sent. What nobody
   /// announced (heartbeats, repetitions) is charged, but takes no more than 85 % of the rate.
-  void measure(SteadyTime now, std::size_t receivers);
+  void measure(SteadyTime now, const Audience& audience);
 
   /// A sample of so many octets was handed over: it counts at once, for each receiver, and not
   /// again when the counter shows it.
@@ -33,12 +46,12 @@ class LinkBudget {
   [[nodiscard]] std::uint64_t octets_queued() const {
     return static_cast<std::uint64_t>(expected_octets_);
   }
-  [[nodiscard]] double rate_bit_s() const { return rate_bit_s_; }
+  [[nodiscard]] double rate_bit_s() const { return pace_.rate_bit_s(); }
   /// As measure() was told, one at least.
   [[nodiscard]] std::size_t receivers() const { return receivers_; }
 
  private:
-  double rate_bit_s_;
+  LinkPace pace_;
   std::function<std::uint64_t()> octets_sent_;
   double allowance_bits_;
   double expected_octets_ = 0.0;

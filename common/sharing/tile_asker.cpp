@@ -58,7 +58,8 @@ std::size_t TileAsker::layers_behind(SteadyTime now) const {
 }
 
 bool TileAsker::is_due(const Want& want, SteadyTime now) const {
-  const bool quiet = now - std::max(want.since, want.gained_at) >= config_.patience;
+  const Duration patience = want.lacks_many ? config_.patience_for_many : config_.patience;
+  const bool quiet = now - std::max(want.since, want.gained_at) >= patience;
   return (quiet && now >= want.round_due) ||
          now - std::max(want.since, want.asked_at) >= config_.long_patience;
 }
@@ -70,6 +71,7 @@ void TileAsker::review(SteadyTime now, const Roster& roster, const ReplicaStore&
     const auto [found, is_new] = wants_.try_emplace(layer);
     Want& want = found->second;
     want.able = difference.able;
+    want.lacks_many = difference.lacks_many;
     if (is_new) want.since = now;
     if (!is_new && want.held == difference.held) continue;
     want.held = difference.held;
@@ -83,7 +85,7 @@ std::map<LayerKey, TileAsker::Difference> TileAsker::differences(SteadyTime now,
                                                                  const Roster& roster,
                                                                  const ReplicaStore& store) const {
   std::map<LayerKey, RevisionDigest> held;
-  std::map<LayerKey, std::map<Teller, RevisionDigest>> tellers;
+  std::map<LayerKey, std::map<Teller, wire::LayerDigest>> tellers;
   std::set<LayerKey> complete;  // as their owners say
   for (const auto& [id, entry] : roster.entries()) {
     if (id == self_.text() || Roster::presence(entry, now) == Presence::lost) continue;
@@ -93,7 +95,7 @@ std::map<LayerKey, TileAsker::Difference> TileAsker::differences(SteadyTime now,
       if (!held.contains(*layer)) held.emplace(*layer, store.digest(*layer));
       const Teller teller{rank_of(entry.status, *layer), id};
       if (told.revisions != held.at(*layer)) {
-        tellers[*layer].emplace(teller, told.revisions);
+        tellers[*layer].emplace(teller, told);
       } else if (teller.rank == Teller::Rank::owner) {
         complete.insert(*layer);
       }
@@ -104,12 +106,15 @@ std::map<LayerKey, TileAsker::Difference> TileAsker::differences(SteadyTime now,
     if (complete.contains(layer) || differing.size() == ReplicaStore::kMaxLayers) continue;
     Difference& difference = differing[layer];
     difference.held = held.at(layer);
+    const ReplicaLayer* tiles = store.find(layer);
+    const std::size_t many = (tiles == nullptr ? 0 : tiles->size()) + config_.many_tiles;
     const auto& [first, newest] = *of_layer.begin();
     for (const auto& [teller, told] : of_layer) {
       // While the owner is heard nobody can know more than it does, but some as much: they are
       // asked where it does not answer.
-      if (first.rank == Teller::Rank::owner && told != newest) continue;
+      if (first.rank == Teller::Rank::owner && told.revisions != newest.revisions) continue;
       difference.able.push_back(teller.id);
+      difference.lacks_many = difference.lacks_many || told.tiles >= many;
     }
   }
   return differing;

@@ -21,6 +21,10 @@ struct TileAskerConfig {
   /// A difference is asked about once nothing of the layer has come in for so long: what is on its
   /// way needs no request.
   Duration patience = std::chrono::milliseconds(1500);
+  /// Where somebody has at least so many tiles more than we do, we came late, or were away: what
+  /// the middleware still has on its way comes in without a pause.
+  std::size_t many_tiles = 16;
+  Duration patience_for_many = std::chrono::milliseconds(500);
   /// Or once it has lasted so long, whatever comes in; and then as often. A request costs as much
   /// as three tiles, and tiles of who walks about are always on their way.
   Duration long_patience = std::chrono::seconds(30);
@@ -53,6 +57,7 @@ class TileAsker {
     SteadyTime gained_at{};             ///< when the layer last changed here
     RevisionDigest held{};              ///< our digest at the last review
     std::vector<std::string> able;      ///< who may have what we lack, best first
+    bool lacks_many = false;            ///< whole tiles, TileAskerConfig::many_tiles at least
     unsigned rounds = 0;                ///< without a gain
     SteadyTime round_due{};             ///< if nothing comes in
     SteadyTime asked_at{};              ///< when the last round began
@@ -64,6 +69,7 @@ class TileAsker {
   struct Difference {
     RevisionDigest held;            ///< our own digest
     std::vector<std::string> able;  ///< as Want::able
+    bool lacks_many = false;
   };
   [[nodiscard]] std::map<LayerKey, Difference> differences(SteadyTime now, const Roster& roster,
                                                            const ReplicaStore& store) const;

@@ -24,7 +24,8 @@ struct Envelope {
   /// Counts the sender's samples of this topic, from 1 (`sequence_number` in the IDL, where
   /// `sequence` is a keyword).
   std::uint64_t sequence = 0;
-  std::int64_t sent_at_ns = 0;  ///< the sender's own wall clock; never compared with another's
+  std::int64_t sent_at_ns =
+      0;  ///< the sender's own wall clock; never compared with another's time of day
   std::vector<std::uint8_t> signature;  ///< empty, or 64 octets once signing is switched on
 };
 
@@ -210,6 +211,9 @@ struct AgentStatus {
   std::array<std::uint8_t, 32> common_map_sha256{};  ///< all zero: none, or not up to date
   std::vector<LayerDigest> layers;
   std::vector<std::string> peers_heard;
+  /// How much later than at its best the newest status of each of them came here, in their order;
+  /// empty where nobody measured it. 65535 stands for more, too.
+  std::vector<std::uint16_t> peers_delay_ms;
 };
 
 enum class DetectionKind : std::uint8_t { victim = 0, human = 1, uwb_tag = 2 };

@@ -67,8 +67,8 @@ template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_
   auto& [a, b, c] = m; return std::tie(a, b, c);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::AgentStatus> {
-  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r, s, t, u, v, w, x, y, z, aa] = m;
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r, s, t, u, v, w, x, y, z, aa);
+  auto& [a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r, s, t, u, v, w, x, y, z, aa, ab] = m;
+  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, n, o, p, q, r, s, t, u, v, w, x, y, z, aa, ab);
 }
 template <typename M> auto fields(M& m) requires std::same_as<std::remove_const_t<M>, wire::Detection> {
   auto& [a, b, c, d, e, f, g, h, i, j, k, l, n] = m;

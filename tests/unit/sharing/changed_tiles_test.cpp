@@ -197,5 +197,21 @@ TEST(ForBudget, ALinkTwoHundredTimesAsWideHasNoneWaitAndANarrowerOneNoneLonger) 
   }
 }
 
+TEST_F(ChangedTilesTest, InALargeTeamTheRevisionsOfATileAreFurtherApart) {
+  config_.new_m2_s = config_.changed_m2_s = config_.least_m2 = 0.0;
+  changed_ = ChangedTiles(config_, true);
+  changed_.set_least_interval(seconds(2));
+  std::size_t went = 0;
+  for (int rows = 1; rows <= 20; ++rows) {  // 10 s, and something new each half second
+    put(free_rows(rows));
+    went += wait(milliseconds(500)).size();
+  }
+  EXPECT_GE(went, 4U);
+  EXPECT_LE(went, 6U);
+  went = wait(seconds(21)).size();  // the last state goes all the same
+  EXPECT_LE(went, 1U);
+  EXPECT_EQ(changed_.waiting(), 0U);
+}
+
 }  // namespace
 }  // namespace lifeline::sharing

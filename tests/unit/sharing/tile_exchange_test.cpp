@@ -22,7 +22,7 @@ class TileAskerTest : public testing::Test {
   }
   // What a participant says that it holds; its store is made for that.
   void say(const std::string& id, const LayerKey& key, std::uint64_t revision,
-           wire::Role role = wire::Role::helmet, std::uint32_t map = 1) {
+           wire::Role role = wire::Role::helmet, std::uint32_t map = 1, std::uint32_t tiles = 1) {
     ReplicaStore theirs{GridGeometry{}};
     ASSERT_TRUE(test::apply(theirs, test::tile_samples(key, {0, 0}, revision, cells_)));
     wire::AgentStatus status;
@@ -30,7 +30,7 @@ class TileAskerTest : public testing::Test {
     status.agent_id = id;
     status.role = role;
     status.map_id = map;
-    status.layers = {{to_layer_name(key), 1, theirs.digest(key)}};
+    status.layers = {{to_layer_name(key), tiles, theirs.digest(key)}};
     ASSERT_TRUE(roster_.hear(status, now_));
   }
   // All requests within so much time.
@@ -64,6 +64,20 @@ TEST_F(TileAskerTest, WaitsForWhatIsOnItsWay) {
   EXPECT_EQ(asker_.layers_behind(now_), 0U);
   EXPECT_THAT(run(milliseconds(400)), SizeIs(1));
   EXPECT_EQ(asker_.layers_behind(now_), 1U);
+}
+
+TEST_F(TileAskerTest, WhoLacksManyTilesAsksSoon) {
+  hold(layer("bravo"), {0, 0}, 1);
+  say("bravo", layer("bravo"), 2, wire::Role::helmet, 1, 16);  // 15 more
+  EXPECT_THAT(run(milliseconds(1400)), IsEmpty());
+  say("bravo", layer("bravo"), 2, wire::Role::helmet, 1, 40);
+  EXPECT_THAT(run(milliseconds(300)), SizeIs(1));
+  // While its tiles come in, that is enough.
+  for (int x = 1; x <= 5; ++x) {
+    hold(layer("bravo"), {x, 0}, 1);
+    EXPECT_THAT(run(milliseconds(400)), IsEmpty());
+  }
+  EXPECT_THAT(run(milliseconds(700)), SizeIs(1));
 }
 
 TEST_F(TileAskerTest, AsksTheOwnerWhileItIsHeard) {
@@ -172,7 +186,7 @@ class TileServerTest : public testing::Test, public wire::Outbox<wire::TileCopy>
   }
   void step() {
     now_ += milliseconds(100);
-    link_.measure(now_, 1);
+    link_.measure(now_, {1});
     ASSERT_TRUE(server_.step(now_, {}, store_, link_));
   }
 
@@ -239,7 +253,7 @@ TEST_F(TileServerTest, KeepsToItsShare) {
   ASSERT_TRUE(poor.take(request({}), store_));
   for (int i = 0; i < 20; ++i) {
     now_ += milliseconds(100);
-    link_.measure(now_, 1);
+    link_.measure(now_, {1});
     ASSERT_TRUE(poor.step(now_, {}, store_, link_));
   }
   EXPECT_THAT(sent_, SizeIs(1));  // a bucket may go into debt by one sample
