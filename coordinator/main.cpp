@@ -118,7 +118,7 @@ void add_export_command(CLI::App& app, ExportCommandOptions& options, int& statu
 void add_watch_command(CLI::App& app, CoordinatorWatchOptions& options, int& status) {
   CLI::App* watch = app.add_subcommand("watch", "Show the fleet in a terminal; only listens");
   add_mission_options(*watch, options);
-  watch->add_flag("--json", options.json, "A JSON line for each status and each tenth pose");
+  watch->add_flag("--json", options.json, "A JSON line for each status and each pose");
   watch->callback([&options, &status] { status = run_watch_command(options); });
 }
 

@@ -20,7 +20,6 @@ namespace lifeline {
 namespace {
 
 constexpr Duration kTableWait = std::chrono::milliseconds(50);
-constexpr int kPosesToALine = 10;
 
 struct Ears {
   std::unique_ptr<wire::Inbox<wire::AgentStatus>> statuses;
@@ -85,8 +84,6 @@ class Watch {
  private:
   void hear(const wire::HelmetPose& pose, Timestamp now) {
     if (!sharing::check_envelope(pose.envelope, mission_id_)) return;
-    if (!poses_.contains(pose.agent_id) && poses_.size() >= sharing::Roster::kMaxEntries) return;
-    if (poses_[pose.agent_id]++ % kPosesToALine != 0) return;
     const nlohmann::ordered_json line{
         {"pose", pose.agent_id},
         {"heard_at_s", wall_s(now)},
@@ -132,7 +129,6 @@ class Watch {
   Ears ears_;
   bool json_;
   sharing::Roster roster_;
-  std::map<std::string, int> poses_;
   SteadyTime table_due_{};
 };
 

@@ -26,9 +26,9 @@ print_phases() {
 }
 
 # How many compilers to run at once: one a core, but no more than memory allows (a compiler takes up to 2 GB).
-parallel_jobs() {
+parallel_jobs() {  # [HOW MANY MORE THAN CORES]
   local cores memory_kb fitting
-  cores="$(nproc)"
+  cores=$(($(nproc) + ${1:-0}))
   memory_kb="$(awk '/^MemAvailable:/ {print $2}' /proc/meminfo)"
   fitting=$((memory_kb / 2000000))
   ((fitting < 1)) && fitting=1

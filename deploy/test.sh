@@ -25,7 +25,7 @@ build() {  # PRESET [TARGET...]
   local preset="$1"
   shift
   cmake --preset "$preset" --log-level=WARNING &&
-    cmake --build --preset "$preset" -j "$jobs" ${1:+--target "$@"}
+    cmake --build --preset "$preset" -j "$(parallel_jobs 1)" ${1:+--target "$@"}
 }
 
 run_tests() {  # PRESET JOBS [CTEST OPTIONS...]

@@ -76,7 +76,7 @@ void HelmetSharing::step() {
   hear_tiles(now);
   hear_detections(now);
   hear_poses(now);
-  link_.measure(now, audience(roster_, config_.speaker.id, now));
+  link_.measure(now, audience(roster_, config_.speaker.id, clock_));
   // Own tiles first: what others lack of these nobody else can send.
   speak(now);
   exchange_.step(now, clock_.wall_now(), roster_, map_.store(), link_);
@@ -121,6 +121,7 @@ Duration HelmetSharing::pose_interval() const {
   // Who stands still for good leaves the link to the tiles.
   if (!link_.allows(Traffic::pose) || state_.state == wire::AgentState::finished)
     return config_.sparing_pose_interval;
+  if (link_.is_late()) return config_.late_pose_interval;
   const Duration team = config_.team_pose_interval * static_cast<int>(link_.receivers());
   return std::max(config_.pose_interval, std::min(team, config_.longest_pose_interval));
 }

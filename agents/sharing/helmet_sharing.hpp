@@ -63,6 +63,8 @@ struct HelmetSharingConfig {
   /// allows.
   Duration team_pose_interval = std::chrono::milliseconds(10);
   Duration longest_pose_interval = std::chrono::milliseconds(400);
+  /// While more is sent than the link passes, so that its queue drains.
+  Duration late_pose_interval = std::chrono::milliseconds(150);
   /// While more is sent than the budget allows.
   Duration sparing_pose_interval = std::chrono::milliseconds(500);
   Duration scan_interval = std::chrono::milliseconds(200);

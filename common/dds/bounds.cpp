@@ -124,7 +124,7 @@ Result<void> check_bounds(const AgentStatus& message) {
   bounds.at_most(message.agent_id, kMaxIdLength, "agent_id");
   bounds.at_most(message.layers, kMaxLayers, "layers");
   bounds.at_most(message.peers_heard, kMaxPeers, "peers_heard");
-  bounds.at_most(message.peers_delay_ms, kMaxPeers, "peers_delay_ms");
+  bounds.at_most(message.peers_echo_ms, kMaxPeers, "peers_echo_ms");
   for (const auto& digest : message.layers) bounds.add(digest.layer, "layers.layer.agent_id");
   for (const auto& peer : message.peers_heard) bounds.at_most(peer, kMaxIdLength, "peers_heard");
   return bounds.result();

@@ -59,7 +59,7 @@ Result<void> to_idl(const wire::AgentStatus& message, msg::AgentStatus& out) {
   out.common_map_sha256(message.common_map_sha256);
   layers_to_idl(message, out);
   parts::to_idl(message.peers_heard, out.peers_heard());
-  out.peers_delay_ms(message.peers_delay_ms);
+  out.peers_echo_ms(message.peers_echo_ms);
   return {};
 }
 
@@ -91,7 +91,7 @@ wire::AgentStatus from_idl(const msg::AgentStatus& sample) {
       .common_map_sha256 = sample.common_map_sha256(),
       .layers = {},
       .peers_heard = parts::from_idl(sample.peers_heard()),
-      .peers_delay_ms = sample.peers_delay_ms()};
+      .peers_echo_ms = sample.peers_echo_ms()};
   message.layers.reserve(sample.layers().size());
   for (const auto& digest : sample.layers()) {
     message.layers.push_back({parts::from_idl(digest.layer()), digest.tiles(), digest.revisions()});

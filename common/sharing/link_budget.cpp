@@ -28,8 +28,9 @@ double reserve_of(Traffic traffic) {
 
 }  // namespace
 
-Audience audience(const Roster& roster, const AgentId& self, SteadyTime now) {
-  return {roster.present(now).size(), roster.own_delay(self.text(), now)};
+Audience audience(const Roster& roster, const AgentId& self, const Clock& clock) {
+  const SteadyTime now = clock.steady_now();
+  return {roster.present(now).size(), roster.round_trip(self.text(), now, clock.wall_now())};
 }
 
 LinkBudget::LinkBudget(double most_bit_s, std::function<std::uint64_t()> octets_sent)
@@ -41,7 +42,7 @@ LinkBudget::LinkBudget(double most_bit_s, std::function<std::uint64_t()> octets_
 void LinkBudget::measure(SteadyTime now, const Audience& audience) {
   receivers_ = std::max<std::size_t>(audience.receivers, 1);
   const std::uint64_t counted = octets_sent_();
-  pace_.step(now, counted, audience.delay);
+  pace_.step(now, counted, audience.round_trip);
   const double rate_bit_s = pace_.rate_bit_s();
   const double gained_bits =
       measured_at_ == SteadyTime{} ? 0.0 : to_seconds(now - measured_at_) * rate_bit_s;

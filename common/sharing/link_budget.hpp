@@ -19,11 +19,11 @@ enum class Traffic { pose, tile, scan };
 /// Who listens.
 struct Audience {
   std::size_t receivers = 0;
-  std::optional<Duration> delay{};  ///< of our own samples, as they tell it (Roster::own_delay)
+  std::optional<Duration> round_trip{};  ///< Roster::round_trip
 };
 
 /// Whom `self` speaks to.
-[[nodiscard]] Audience audience(const Roster& roster, const AgentId& self, SteadyTime now);
+[[nodiscard]] Audience audience(const Roster& roster, const AgentId& self, const Clock& clock);
 
 /// Keeps what a participant really sends to a rate, whatever it sends, and to less where the link
 /// passes less (LinkPace): each class may draw on the allowance down to a reserve that is kept for
@@ -42,6 +42,8 @@ class LinkBudget {
   void expect(std::size_t octets);
 
   [[nodiscard]] bool allows(Traffic traffic) const;
+  /// Whether samples wait in the link's queue (LinkPace::is_late).
+  [[nodiscard]] bool is_late() const { return pace_.is_late(); }
   /// Handed over and not yet seen by the counter.
   [[nodiscard]] std::uint64_t octets_queued() const {
     return static_cast<std::uint64_t>(expected_octets_);

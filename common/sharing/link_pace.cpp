@@ -7,9 +7,9 @@ namespace {
 
 constexpr Duration kLookInterval = std::chrono::seconds(1);
 // A tile for eight receivers keeps a link of 250 kbit/s busy for as long.
-constexpr Duration kUsualDelay = std::chrono::milliseconds(150);
+constexpr Duration kUsual = std::chrono::milliseconds(200);
 // So much beyond it, and we slow down by kMostSlower.
-constexpr Duration kGreatDelay = std::chrono::milliseconds(500);
+constexpr Duration kMuchBeyond = std::chrono::milliseconds(500);
 constexpr double kMostSlower = 0.6;
 // Status and poses need as much; what is late then is not ours.
 constexpr double kLeast_bit_s = 96'000;
@@ -18,24 +18,24 @@ constexpr Duration kSettling = std::chrono::seconds(3);
 
 }  // namespace
 
-void LinkPace::step(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> delay) {
+void LinkPace::step(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> round_trip) {
   if (now - looked_at_ < kLookInterval) return;
   const double sent_bit_s = 8.0 *
                             static_cast<double>(octets_sent - std::min(octets_sent, sent_then_)) /
                             to_seconds(now - looked_at_);
   looked_at_ = now;
   sent_then_ = octets_sent;
-  const bool late = delay && *delay > kUsualDelay;
+  const bool late = round_trip && *round_trip > kUsual;
   // Once is a machine that was busy for a moment.
-  if (late && was_late_ && now >= settled_at_) slow_down(now, sent_bit_s, *delay);
+  if (late && is_late_ && now >= settled_at_) slow_down(now, sent_bit_s, *round_trip);
   if (!late) speed_up();
-  was_late_ = late;
+  is_late_ = late;
 }
 
-void LinkPace::slow_down(SteadyTime now, double sent_bit_s, Duration delay) {
+void LinkPace::slow_down(SteadyTime now, double sent_bit_s, Duration round_trip) {
   const double least_bit_s = std::min(kLeast_bit_s, most_bit_s_);
   const double passed_bit_s = std::clamp(sent_bit_s, least_bit_s, rate_bit_s_);
-  const double beyond = to_seconds(delay - kUsualDelay) / to_seconds(kGreatDelay);
+  const double beyond = to_seconds(round_trip - kUsual) / to_seconds(kMuchBeyond);
   rate_bit_s_ = std::max(least_bit_s, passed_bit_s * (1.0 - kMostSlower * std::min(beyond, 1.0)));
   passed_bit_s_ = passed_bit_s;
   settled_at_ = now + kSettling;

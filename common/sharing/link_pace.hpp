@@ -7,28 +7,32 @@
 
 namespace lifeline::sharing {
 
-/// What a link passes, found by how late our own samples come to others (docs/decisions/0119): less
-/// than is configured where they queue up, and more again, gently, while they do not. A link's
-/// queue that is full delays what is urgent, too. One owner, not thread-safe.
+/// What a link passes, found by how long our samples take to others and their answers back
+/// (docs/decisions/0119): less than is configured where they queue up, and more again, gently,
+/// while they do not. A link's queue that is full delays what is urgent, too. One owner, not
+/// thread-safe.
 class LinkPace {
  public:
   explicit LinkPace(double most_bit_s) : most_bit_s_(most_bit_s), rate_bit_s_(most_bit_s) {}
 
-  /// `octets_sent`: everything that has left so far. `delay`: the least that any receiver tells
-  /// (Roster::own_delay), nullopt where none does. To be called often; looks once a second.
-  void step(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> delay);
+  /// `octets_sent`: everything that has left so far. `round_trip`: the least with any
+  /// receiver (Roster::round_trip), nullopt where none is known. To be called often; looks once a
+  /// second.
+  void step(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> round_trip);
 
   [[nodiscard]] double rate_bit_s() const { return rate_bit_s_; }
+  /// Whether our samples wait in the link's queue, as of the last look.
+  [[nodiscard]] bool is_late() const { return is_late_; }
 
  private:
-  void slow_down(SteadyTime now, double sent_bit_s, Duration delay);
+  void slow_down(SteadyTime now, double sent_bit_s, Duration round_trip);
   void speed_up();
 
   double most_bit_s_, rate_bit_s_;
   std::optional<double> passed_bit_s_;  ///< what the link passed when last it was full
   SteadyTime looked_at_{}, settled_at_{};
   std::uint64_t sent_then_ = 0;
-  bool was_late_ = false;
+  bool is_late_ = false;
 };
 
 }  // namespace lifeline::sharing

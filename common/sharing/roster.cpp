@@ -3,37 +3,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <utility>
 
 #include "common/wire/limits.hpp"
 
 namespace lifeline::sharing {
 namespace {
 
-constexpr Duration kQuickestOf = std::chrono::seconds(30);
-
-/// Takes in how long a status was on its way, by two clocks that differ by nobody knows what.
-/// Returns how much longer than the quickest.
-Duration delay_of(Roster::Entry::Quickest& quickest, const wire::Envelope& envelope,
-                  SteadyTime now) {
-  // In floating point: a sender's time stamp may be anything.
-  const double on_its_way_s =
-      to_seconds(now.time_since_epoch()) - 1e-9 * static_cast<double>(envelope.sent_at_ns);
-  if (now - quickest.since >= kQuickestOf) {
-    const bool first = quickest.since == SteadyTime{};
-    quickest = {on_its_way_s, first ? on_its_way_s : quickest.now_s, now};
-  }
-  quickest.now_s = std::min(quickest.now_s, on_its_way_s);
-  constexpr double kMost_s = 3600.0;
-  const double quickest_s = std::min(quickest.now_s, quickest.before_s);
-  return from_seconds(std::min(on_its_way_s - quickest_s, kMost_s));
-}
-
-std::uint16_t to_ms(Duration delay) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::uint16_t>::max();
-  return static_cast<std::uint16_t>(
-      std::min<std::int64_t>(std::chrono::floor<std::chrono::milliseconds>(delay).count(), kMost));
+/// A clock's milliseconds, modulo 2^32.
+std::uint32_t to_ms(std::int64_t clock_ns) {
+  return static_cast<std::uint32_t>(clock_ns / 1'000'000);
 }
 
 }  // namespace
@@ -43,9 +21,7 @@ bool Roster::hear(const wire::AgentStatus& status, SteadyTime now) {
   const auto found = entries_.find(status.agent_id);
   if (found == entries_.end()) {
     if (entries_.size() >= kMaxEntries) return false;
-    Entry entry{status, now};
-    (void)delay_of(entry.quickest, status.envelope, now);
-    entries_.insert({status.agent_id, std::move(entry)});
+    entries_.insert({status.agent_id, {status, now, false}});
     return true;
   }
   Entry& entry = found->second;
@@ -54,11 +30,7 @@ bool Roster::hear(const wire::AgentStatus& status, SteadyTime now) {
   if (same_process && status.envelope.sequence <= held.sequence) return false;
   // A reboot silences the old incarnation; two that keep talking are two helmets with one id.
   const bool both_alive = !same_process && now - entry.heard_at < kLateAfter;
-  entry.contested = both_alive || (same_process && entry.contested);
-  if (!same_process) entry.quickest = {};
-  entry.delay = delay_of(entry.quickest, status.envelope, now);
-  entry.status = status;
-  entry.heard_at = now;
+  entry = {status, now, both_alive || (same_process && entry.contested)};
   return true;
 }
 
@@ -86,19 +58,25 @@ void Roster::tell_peers(SteadyTime now, wire::AgentStatus& status) const {
     if (presence(entry, now) == Presence::lost) continue;
     if (status.peers_heard.size() == wire::kMaxPeers) return;
     status.peers_heard.push_back(id);
-    status.peers_delay_ms.push_back(to_ms(entry.delay));
+    status.peers_echo_ms.push_back(to_ms(entry.status.envelope.sent_at_ns) +
+                                   to_ms((now - entry.heard_at).count()));
   }
 }
 
-std::optional<Duration> Roster::own_delay(const std::string& self, SteadyTime now) const {
+std::optional<Duration> Roster::round_trip(const std::string& self, SteadyTime now,
+                                           Timestamp wall_now) const {
   std::optional<Duration> least;
   for (const auto& [id, entry] : entries_) {
     if (presence(entry, now) != Presence::fresh) continue;
     const auto& heard = entry.status.peers_heard;
     const auto own = static_cast<std::size_t>(std::ranges::find(heard, self) - heard.begin());
-    if (own >= std::min(heard.size(), entry.status.peers_delay_ms.size())) continue;
-    const Duration delay = std::chrono::milliseconds(entry.status.peers_delay_ms[own]);
-    least = std::min(least.value_or(delay), delay);
+    if (own >= std::min(heard.size(), entry.status.peers_echo_ms.size())) continue;
+    const Timestamp heard_at = wall_now - (now - entry.heard_at);
+    // Modulo 2^32; what would be negative is a clock that was set meanwhile.
+    const auto took_ms = static_cast<std::int32_t>(to_ms(heard_at.time_since_epoch().count()) -
+                                                   entry.status.peers_echo_ms[own]);
+    const Duration took = std::chrono::milliseconds(std::max(took_ms, 0));
+    least = std::min(least.value_or(took), took);
   }
   return least;
 }

@@ -29,15 +29,6 @@ class Roster {
     SteadyTime heard_at;
     /// Another living process with the same id, if one was heard while this one was.
     bool contested = false;
-    /// How much later than the quickest of the last minute this status came. Whose clocks differ
-    /// does not matter, as long as both go.
-    Duration delay{};
-    /// Of (when a status came, by our clock) less (when it left, by the sender's): the least of
-    /// the current half minute and of the one before.
-    struct Quickest {
-      double now_s = 0.0, before_s = 0.0;
-      SteadyTime since{};
-    } quickest{};
   };
 
   /// Takes in a status whose envelope was accepted. False: older than what is held, or not of its
@@ -51,11 +42,13 @@ class Roster {
   /// Ids of everybody who is not lost.
   [[nodiscard]] std::vector<std::string> present(SteadyTime now) const;
 
-  /// Says in a status whom we hear, and how late. No more than a sample has room for.
+  /// Says in a status whom we hear, and echoes their clocks. No more than a sample has room for.
   void tell_peers(SteadyTime now, wire::AgentStatus& status) const;
-  /// How late our own samples come to those who hear us, as they say: the least of all, since what
-  /// delays them for everybody is our own link. nullopt where nobody says.
-  [[nodiscard]] std::optional<Duration> own_delay(const std::string& self, SteadyTime now) const;
+  /// How long our own samples are on their way to those who hear us, and their answers back: the
+  /// least of all, since what delays them for everybody is our own link. nullopt where nobody
+  /// echoes. `wall_now`: by the clock that our envelopes tell.
+  [[nodiscard]] std::optional<Duration> round_trip(const std::string& self, SteadyTime now,
+                                                   Timestamp wall_now) const;
 
  private:
   std::map<std::string, Entry> entries_;

@@ -211,9 +211,10 @@ struct AgentStatus {
   std::array<std::uint8_t, 32> common_map_sha256{};  ///< all zero: none, or not up to date
   std::vector<LayerDigest> layers;
   std::vector<std::string> peers_heard;
-  /// How much later than at its best the newest status of each of them came here, in their order;
-  /// empty where nobody measured it. 65535 stands for more, too.
-  std::vector<std::uint16_t> peers_delay_ms;
+  /// What a clock of each of them would show now, had its newest status taken no time to come here,
+  /// in their order; empty where nobody says. Milliseconds, modulo 2^32: a peer finds by it how
+  /// long its samples are on their way, and these back.
+  std::vector<std::uint32_t> peers_echo_ms;
 };
 
 enum class DetectionKind : std::uint8_t { victim = 0, human = 1, uwb_tag = 2 };

@@ -90,7 +90,7 @@ std::vector<BoundedField> bounded_fields() {
       LIFELINE_ELEMENT(AgentStatus, kMaxIdLength, layers, .layer.agent_id),
       LIFELINE_FIELD(AgentStatus, kMaxPeers, peers_heard),
       LIFELINE_ELEMENT(AgentStatus, kMaxIdLength, peers_heard, ),
-      LIFELINE_FIELD(AgentStatus, kMaxPeers, peers_delay_ms),
+      LIFELINE_FIELD(AgentStatus, kMaxPeers, peers_echo_ms),
       LIFELINE_FIELD(Detection, kMaxIdLength, agent_id),
       LIFELINE_FIELD(Alert, kMaxIdLength, issuer_id),
       LIFELINE_FIELD(Alert, kMaxIdLength, subject_id),

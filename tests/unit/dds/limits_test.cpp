@@ -44,7 +44,7 @@ TEST(Limits, are_the_bounds_of_the_idl) {
       (Bounds{{"members", kMaxMembers}, {"reason", kMaxReason}, {"candidates", kMaxCandidates}}));
   EXPECT_EQ(bounds_in("status.idl"), (Bounds{{"layers", kMaxLayers},
                                              {"peers_heard", kMaxPeers},
-                                             {"peers_delay_ms", kMaxPeers},
+                                             {"peers_echo_ms", kMaxPeers},
                                              {"text", kMaxAlertText},
                                              {"acknowledged_by", kMaxPeers}}));
 }

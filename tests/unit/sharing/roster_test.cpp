@@ -73,71 +73,61 @@ TEST_F(RosterTest, HoldsNoMoreThanItsLimit) {
   EXPECT_FALSE(roster_.hear(status("late", 1), start_));
 }
 
-// Sent `left` after the sender's start, by a clock that tells another time.
-wire::AgentStatus sent(std::uint64_t sequence, Duration left) {
-  auto sample = status("alpha", sequence);
-  sample.envelope.sent_at_ns = (std::chrono::hours(500'000) + left).count();
+// What a helmet that hears zulu and echoes its clock so says.
+wire::AgentStatus echoing(const std::string& id, std::vector<std::uint32_t> echoes_ms) {
+  auto sample = status(id, 1);
+  sample.peers_heard = {"yankee", "zulu"};
+  sample.peers_echo_ms = std::move(echoes_ms);
   return sample;
 }
 
-TEST_F(RosterTest, TellsHowMuchLaterThanTheQuickestAStatusCame) {
-  roster_.hear(sent(1, seconds(0)), start_ + milliseconds(30));
-  EXPECT_EQ(roster_.find("alpha")->delay, Duration{});
-  roster_.hear(sent(2, seconds(1)), start_ + milliseconds(1010));  // the quickest
-  roster_.hear(sent(3, seconds(2)), start_ + milliseconds(2710));
-  wire::AgentStatus own;
-  roster_.tell_peers(start_ + seconds(3), own);
-  EXPECT_EQ(own.peers_heard, std::vector<std::string>{"alpha"});
-  ASSERT_EQ(own.peers_delay_ms.size(), 1U);
-  EXPECT_NEAR(own.peers_delay_ms[0], 700, 1);
+TEST_F(RosterTest, ARoundTripIsWhatTwoSamplesAreOnTheirWayAndNotWhatTheyWereKept) {
+  // Zulu's clock shows half a million hours, alpha's nothing of the kind.
+  const Timestamp sent_at{std::chrono::hours(500'000)};
+  Roster of_alpha;
+  auto of_zulu = status("zulu", 1);
+  of_zulu.envelope.sent_at_ns = sent_at.time_since_epoch().count();
+  of_alpha.hear(of_zulu, SteadyTime(seconds(77)));
+  auto answer = status("alpha", 1);
+  of_alpha.tell_peers(SteadyTime(milliseconds(77'900)), answer);
+  EXPECT_EQ(answer.peers_heard, std::vector<std::string>{"zulu"});
+  // There in 300 ms, kept 900 ms, back in 100 ms; looked at a second later.
+  roster_.hear(answer, start_);
+  const auto took = roster_.round_trip("zulu", start_ + seconds(1), sent_at + milliseconds(2300));
+  ASSERT_TRUE(took);
+  EXPECT_NEAR(to_seconds(*took), 0.4, 0.002);
 }
 
-TEST_F(RosterTest, ForgetsTheQuickestAfterAMinute) {
-  std::uint64_t sequence = 0;
-  const auto hear_for = [&](int from_s, int to_s, Duration on_its_way) {
-    for (int s = from_s; s < to_s; ++s)
-      roster_.hear(sent(++sequence, seconds(s)), start_ + seconds(s) + on_its_way);
-  };
-  hear_for(0, 30, milliseconds(0));
-  hear_for(30, 58, milliseconds(400));  // the sender's clock was set
-  EXPECT_NEAR(to_seconds(roster_.find("alpha")->delay), 0.4, 1e-3);
-  hear_for(58, 100, milliseconds(400));
-  EXPECT_NEAR(to_seconds(roster_.find("alpha")->delay), 0.0, 1e-3);
+TEST_F(RosterTest, OfAllRoundTripsTheLeastCounts) {
+  const Timestamp at{seconds(50)};
+  EXPECT_EQ(roster_.round_trip("zulu", start_, at), std::nullopt);
+  roster_.hear(echoing("alpha", {}), start_);
+  roster_.hear(echoing("bravo", {1}), start_);  // says less than it names
+  EXPECT_EQ(roster_.round_trip("zulu", start_, at), std::nullopt);
+  roster_.hear(echoing("charlie", {1, 49'300}), start_);
+  roster_.hear(echoing("delta", {2, 49'700}), start_);
+  EXPECT_EQ(roster_.round_trip("zulu", start_, at), milliseconds(300));
+  EXPECT_EQ(roster_.round_trip("x-ray", start_, at), std::nullopt);
+  EXPECT_EQ(roster_.round_trip("zulu", start_ + seconds(3), at), std::nullopt);  // they are late
 }
 
-TEST_F(RosterTest, WhateverASenderSaysOfItsClockTheDelayIsANumber) {
-  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();
-  constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
-  std::uint64_t sequence = 0;
-  for (const std::int64_t at_ns : {kMost, kLeast, std::int64_t{0}, kLeast, kMost}) {
-    auto sample = status("alpha", ++sequence);
-    sample.envelope.sent_at_ns = at_ns;
-    ASSERT_TRUE(roster_.hear(sample, start_ + seconds(sequence)));
-    EXPECT_GE(roster_.find("alpha")->delay, Duration{});
-    EXPECT_LE(roster_.find("alpha")->delay, std::chrono::hours(1));
+TEST_F(RosterTest, AClockThatWasSetOrAnEchoThatIsNoneGivesNoNegativeRoundTrip) {
+  const Timestamp at{seconds(50)};
+  for (const std::uint32_t echo_ms : {0xffffffffU, 0x80000000U, 0x7fffffffU, 60'000U}) {
+    Roster roster;
+    roster.hear(echoing("alpha", {1, echo_ms}), start_);
+    EXPECT_GE(roster.round_trip("zulu", start_, at), Duration{}) << echo_ms;
   }
-  wire::AgentStatus own;
-  roster_.hear(sent(++sequence, Duration{}), start_ + seconds(sequence));
-  roster_.tell_peers(start_ + seconds(sequence), own);
-  EXPECT_EQ(own.peers_delay_ms.size(), 1U);
-}
-
-TEST_F(RosterTest, TheOwnDelayIsTheLeastThatAnybodyTells) {
-  EXPECT_EQ(roster_.own_delay("zulu", start_), std::nullopt);
-  const auto hear = [&](const std::string& id, std::vector<std::uint16_t> delays) {
-    auto sample = status(id, 1);
-    sample.peers_heard = {"yankee", "zulu"};
-    sample.peers_delay_ms = std::move(delays);
-    roster_.hear(sample, start_);
-  };
-  hear("alpha", {});
-  hear("bravo", {1});  // tells less than it names
-  EXPECT_EQ(roster_.own_delay("zulu", start_), std::nullopt);
-  hear("charlie", {1, 700});
-  hear("delta", {2, 300});
-  EXPECT_EQ(roster_.own_delay("zulu", start_), milliseconds(300));
-  EXPECT_EQ(roster_.own_delay("x-ray", start_), std::nullopt);
-  EXPECT_EQ(roster_.own_delay("zulu", start_ + seconds(3)), std::nullopt);  // they are late
+  auto sample = status("alpha", 1);
+  for (const auto at_ns :
+       {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
+    ++sample.envelope.sequence;
+    sample.envelope.sent_at_ns = at_ns;
+    ASSERT_TRUE(roster_.hear(sample, start_));
+    wire::AgentStatus own;
+    roster_.tell_peers(start_ + seconds(1), own);
+    EXPECT_EQ(own.peers_echo_ms.size(), 1U);
+  }
 }
 
 }  // namespace
