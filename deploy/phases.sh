@@ -25,7 +25,7 @@ print_phases() {
   done
 }
 
-# How many compilers to run at once: one a core, but no more than memory allows (a compiler takes up to 2 GB).
+# How many processes to run at once: one a core, or so many more, but no more than memory allows (a compiler takes up to 2 GB).
 parallel_jobs() {  # [HOW MANY MORE THAN CORES]
   local cores memory_kb fitting
   cores=$(($(nproc) + ${1:-0}))

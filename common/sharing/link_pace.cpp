@@ -6,7 +6,7 @@ namespace lifeline::sharing {
 namespace {
 
 constexpr Duration kLookInterval = std::chrono::seconds(1);
-// A tile for eight receivers keeps a link of 250 kbit/s busy for as long.
+// A tile for eight receivers keeps a link of 250 kbit/s busy for a tenth of a second.
 constexpr Duration kUsual = std::chrono::milliseconds(200);
 // So much beyond it, and we slow down by kMostSlower.
 constexpr Duration kMuchBeyond = std::chrono::milliseconds(500);

@@ -24,8 +24,7 @@ struct Envelope {
   /// Counts the sender's samples of this topic, from 1 (`sequence_number` in the IDL, where
   /// `sequence` is a keyword).
   std::uint64_t sequence = 0;
-  std::int64_t sent_at_ns =
-      0;  ///< the sender's own wall clock; never compared with another's time of day
+  std::int64_t sent_at_ns = 0;  ///< the sender's own wall clock; never compared with another's
   std::vector<std::uint8_t> signature;  ///< empty, or 64 octets once signing is switched on
 };
 

@@ -17,7 +17,7 @@ using std::chrono::seconds;
 constexpr Duration kStep = milliseconds(20);
 
 /// A sender that always has something to send, and a link with a queue: what does not fit in is
-/// dropped. What receivers tell is from 1 to 2 s old.
+/// dropped. What receivers tell is 1.5 s old.
 class LinkPaceTest : public testing::Test {
  protected:
   void send_for(Duration time) {
