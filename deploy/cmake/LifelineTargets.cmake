@@ -61,8 +61,10 @@ if(LIFELINE_BATCHES)
     set(LIFELINE_PRECOMPILED_OPTIONS "SHELL:-Xclang -fno-validate-pch" "SHELL:-Xclang -fno-pch-timestamp" -fpch-instantiate-templates)
   endif()
   set(LIFELINE_PRECOMPILED lifeline_precompiled)
+  set(LIFELINE_COMPUTING_PRECOMPILED lifeline_computing_precompiled)
   set(LIFELINE_TEST_PRECOMPILED lifeline_test_precompiled)
   lifeline_precompile_headers(${LIFELINE_PRECOMPILED})
+  lifeline_precompile_headers(${LIFELINE_COMPUTING_PRECOMPILED} FLAGS ${LIFELINE_COMPUTING_FLAGS})
   lifeline_precompile_headers(${LIFELINE_TEST_PRECOMPILED} FLAGS ${LIFELINE_TEST_FLAGS}
     LINK GTest::gmock HEADERS <gmock/gmock.h> <gtest/gtest.h>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -81,16 +83,22 @@ function(lifeline_use_precompiled target precompiled)
   endif()
 endfunction()
 
-# lifeline_library(NAME SOURCES a.cpp ... [PUBLIC libs...] [PRIVATE libs...]): target lifeline_NAME, alias lifeline::NAME.
+# lifeline_library(NAME [COMPUTES] SOURCES a.cpp ... [PUBLIC libs...] [PRIVATE libs...]): target lifeline_NAME, alias
+# lifeline::NAME. COMPUTES: tests wait for its arithmetic, so that it is optimised even where the rest is not.
 function(lifeline_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "COMPUTES" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(lifeline_${name} STATIC ${arg_SOURCES})
   add_library(lifeline::${name} ALIAS lifeline_${name})
   target_include_directories(lifeline_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(lifeline_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   lifeline_warnings(lifeline_${name})
   lifeline_batch(lifeline_${name})
-  lifeline_use_precompiled(lifeline_${name} "${LIFELINE_PRECOMPILED}")
+  if(arg_COMPUTES)
+    target_compile_options(lifeline_${name} PRIVATE ${LIFELINE_COMPUTING_FLAGS})
+    lifeline_use_precompiled(lifeline_${name} "${LIFELINE_COMPUTING_PRECOMPILED}")
+  else()
+    lifeline_use_precompiled(lifeline_${name} "${LIFELINE_PRECOMPILED}")
+  endif()
 endfunction()
 
 # lifeline_program(NAME SOURCES a.cpp ... LINK libs...): program NAME in build/<preset>/bin.
@@ -135,7 +143,6 @@ function(lifeline_test name)
     LIFELINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LIFELINE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   lifeline_warnings(${name})
   lifeline_batch(${name})
-  # Not -O0: where they meet, the linker takes these objects' inline functions for the library's, too.
   target_compile_options(${name} PRIVATE ${LIFELINE_TEST_FLAGS})
   lifeline_use_precompiled(${name} "${LIFELINE_TEST_PRECOMPILED}")
   if(threads IN_LIST arg_LABELS)  # the ones that the thread sanitizer build is for
