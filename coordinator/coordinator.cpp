@@ -61,7 +61,7 @@ void Coordinator::step() {
   sharing::hear(channels_.tiles->take(), "tsd_tile", mission_id, now, notes_,
                 [&](const wire::TsdTile& sample) { return store_.apply(sample); });
   hear_detections(now);
-  link_.measure(now, sharing::audience(roster_, settings_.speaker.id, clock_));
+  link_.measure(now, [this] { return sharing::audience(roster_, settings_.speaker.id, clock_); });
   exchange_.step(now, clock_.wall_now(), roster_, store_, link_);
   note_changes(now);
   if (!settings_.only_listens) {  // who decides nothing needs nothing to decide by

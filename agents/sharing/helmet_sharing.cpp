@@ -76,7 +76,7 @@ void HelmetSharing::step() {
   hear_tiles(now);
   hear_detections(now);
   hear_poses(now);
-  link_.measure(now, audience(roster_, config_.speaker.id, clock_));
+  link_.measure(now, [this] { return audience(roster_, config_.speaker.id, clock_); });
   // Own tiles first: what others lack of these nobody else can send.
   speak(now);
   exchange_.step(now, clock_.wall_now(), roster_, map_.store(), link_);

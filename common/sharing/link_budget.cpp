@@ -39,10 +39,13 @@ LinkBudget::LinkBudget(double most_bit_s, std::function<std::uint64_t()> octets_
       allowance_bits_(most_bit_s),
       counted_(octets_sent_()) {}
 
-void LinkBudget::measure(SteadyTime now, const Audience& audience) {
-  receivers_ = std::max<std::size_t>(audience.receivers, 1);
+void LinkBudget::measure(SteadyTime now, const std::function<Audience()>& audience) {
   const std::uint64_t counted = octets_sent_();
-  pace_.step(now, counted, audience.round_trip);
+  if (pace_.is_due(now)) {
+    const Audience listens = audience();
+    receivers_ = std::max<std::size_t>(listens.receivers, 1);
+    pace_.look(now, counted, listens.round_trip);
+  }
   const double rate_bit_s = pace_.rate_bit_s();
   const double gained_bits =
       measured_at_ == SteadyTime{} ? 0.0 : to_seconds(now - measured_at_) * rate_bit_s;

@@ -35,7 +35,8 @@ class LinkBudget {
 
   /// Takes time and the counter into account; to be called before anything is sent. What nobody
   /// announced (heartbeats, repetitions) is charged, but takes no more than 85 % of the rate.
-  void measure(SteadyTime now, const Audience& audience);
+  /// `audience` is asked once a second.
+  void measure(SteadyTime now, const std::function<Audience()>& audience);
 
   /// A sample of so many octets was handed over: it counts at once, for each receiver, and not
   /// again when the counter shows it.
@@ -49,7 +50,7 @@ class LinkBudget {
     return static_cast<std::uint64_t>(expected_octets_);
   }
   [[nodiscard]] double rate_bit_s() const { return pace_.rate_bit_s(); }
-  /// As measure() was told, one at least.
+  /// As measure() was told last, one at least.
   [[nodiscard]] std::size_t receivers() const { return receivers_; }
 
  private:

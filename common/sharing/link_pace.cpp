@@ -18,8 +18,11 @@ constexpr Duration kSettling = std::chrono::seconds(3);
 
 }  // namespace
 
-void LinkPace::step(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> round_trip) {
-  if (now - looked_at_ < kLookInterval) return;
+bool LinkPace::is_due(SteadyTime now) const {
+  return now - looked_at_ >= kLookInterval;
+}
+
+void LinkPace::look(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> round_trip) {
   const double sent_bit_s = 8.0 *
                             static_cast<double>(octets_sent - std::min(octets_sent, sent_then_)) /
                             to_seconds(now - looked_at_);

@@ -15,10 +15,11 @@ class LinkPace {
  public:
   explicit LinkPace(double most_bit_s) : most_bit_s_(most_bit_s), rate_bit_s_(most_bit_s) {}
 
+  /// Whether it is time to look() again: once a second.
+  [[nodiscard]] bool is_due(SteadyTime now) const;
   /// `octets_sent`: everything that has left so far. `round_trip`: the least with any
-  /// receiver (Roster::round_trip), nullopt where none is known. To be called often; looks once a
-  /// second.
-  void step(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> round_trip);
+  /// receiver (Roster::round_trip), nullopt where none is known.
+  void look(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> round_trip);
 
   [[nodiscard]] double rate_bit_s() const { return rate_bit_s_; }
   /// Whether our samples wait in the link's queue, as of the last look.

@@ -147,6 +147,17 @@ bool RadioFleet::standby_holds_all() const {
          standby->second.common_map_sha256 == coordinator->second.common_map_sha256;
 }
 
+bool RadioFleet::all_have_met() const {
+  return std::ranges::all_of(running_, [&](const auto& running) {
+    if (!is_machine(running.first)) return true;
+    const auto met = met_.find(running.first);
+    return met != met_.end() && std::ranges::all_of(running_, [&](const auto& other) {
+             return !is_machine(other.first) || other.first == running.first ||
+                    met->second.contains(other.first);
+           });
+  });
+}
+
 bool RadioFleet::all_hear_all() const {
   return std::ranges::all_of(running_, [&](const auto& running) {
     if (!is_machine(running.first)) return true;
@@ -187,6 +198,8 @@ void RadioFleet::take_line(const std::string& line) {
                               told["explored_m2"],   told["common_map_sha256"], told["scans"],
                               told["scans_dropped"], told["samples_refused"],   told["tiles"],
                               told["peers_heard"]};
+    const auto& peers = heard_[told["status"]].peers_heard;
+    met_[told["status"]].insert(peers.begin(), peers.end());
   }
 }
 

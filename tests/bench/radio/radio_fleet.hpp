@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -86,7 +87,9 @@ class RadioFleet {
   [[nodiscard]] bool all_finished() const;
   /// Every helmet has told of scans.
   [[nodiscard]] bool all_walk() const;
-  /// Everybody's status says that it hears everybody else.
+  /// Everybody has told, in one status or another, of hearing each other: every pair is matched.
+  [[nodiscard]] bool all_have_met() const;
+  /// Everybody's newest status says that it hears everybody else: nobody is late just now.
   [[nodiscard]] bool all_hear_all() const;
   /// Another coordinator, on a host of its own: it follows, and holds nothing yet.
   [[nodiscard]] Result<void> start_standby();
@@ -123,6 +126,7 @@ class RadioFleet {
   std::ifstream watch_;
   std::string begun_line_;
   std::map<std::string, HeardStatus> heard_;
+  std::map<std::string, std::set<std::string>> met_;  ///< whom each has ever told of hearing
   std::map<std::string, std::vector<HeardPose>> poses_;
 };
 

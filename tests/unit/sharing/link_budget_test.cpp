@@ -12,7 +12,7 @@ class LinkBudgetTest : public testing::Test {
  protected:
   void pass(Duration time, std::size_t receivers = 1) {
     now_ += time;
-    link_.measure(now_, {receivers});
+    link_.measure(now_, [&] { return Audience{receivers}; });
   }
   std::uint64_t counted_ = 0;
   SteadyTime now_{std::chrono::hours(1)};
