@@ -64,7 +64,7 @@ class SharedWalk {
   }
 
   void step(SteadyTime now) {
-    link_.measure(now, {1});
+    link_.measure(now, [] { return sharing::Audience{1}; });
     LIFELINE_CHECK(publisher_.step(now, Timestamp{}, store_, link_));
     for (const auto& changed : store_.take_changed()) note(changed.tile);
     double lacking = 0.0;

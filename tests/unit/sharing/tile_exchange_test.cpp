@@ -186,7 +186,7 @@ class TileServerTest : public testing::Test, public wire::Outbox<wire::TileCopy>
   }
   void step() {
     now_ += milliseconds(100);
-    link_.measure(now_, {1});
+    link_.measure(now_, [] { return Audience{1}; });
     ASSERT_TRUE(server_.step(now_, {}, store_, link_));
   }
 
@@ -253,7 +253,7 @@ TEST_F(TileServerTest, KeepsToItsShare) {
   ASSERT_TRUE(poor.take(request({}), store_));
   for (int i = 0; i < 20; ++i) {
     now_ += milliseconds(100);
-    link_.measure(now_, {1});
+    link_.measure(now_, [] { return Audience{1}; });
     ASSERT_TRUE(poor.step(now_, {}, store_, link_));
   }
   EXPECT_THAT(sent_, SizeIs(1));  // a bucket may go into debt by one sample
