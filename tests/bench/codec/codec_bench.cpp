@@ -20,26 +20,27 @@ namespace {
 
 constexpr double kFinalBar = 35.0, kAllBar = 150.0;  // octets a known square metre
 
-struct Options {
+struct CodecOptions {
   std::optional<std::filesystem::path> out, config;
   std::filesystem::path data = "../shared/data";
   std::string only;
 };
 
-struct Case {
+struct CodecCase {
   std::string name, source;
 };
 
-std::vector<Case> cases_of(const Options& options) {
-  std::vector<Case> cases;
+std::vector<CodecCase> cases_of(const CodecOptions& options) {
+  std::vector<CodecCase> cases;
   for (const char* name : {"intel", "aces", "csail", "seattle", "edmonton", "acapulco"}) {
     const auto log = options.data / "carmen" / (std::string(name) + "-rawodom.log.gz");
     if (!std::filesystem::exists(log)) continue;
     cases.push_back({name, fmt::format("carmen:{}?prior=odom", log.string())});
   }
   cases.push_back({"simulated office", "sim:office?seed=21"});
-  std::erase_if(
-      cases, [&](const Case& each) { return each.name.find(options.only) == std::string::npos; });
+  std::erase_if(cases, [&](const CodecCase& each) {
+    return each.name.find(options.only) == std::string::npos;
+  });
   return cases;
 }
 
@@ -80,14 +81,14 @@ void write_rows(const std::string& name, const CodecWalk& walk, Report& report) 
   }
 }
 
-int run(const Options& options) {
+int run(const CodecOptions& options) {
   const auto config = read_agent_config(options.config, std::nullopt);
   if (!config) {
     fmt::print(stderr, "lifeline-bench: {}\n", config.error().text);
     return 2;
   }
   Report report{"codec", describe_machine(), {}};
-  for (const Case& each : cases_of(options)) {
+  for (const CodecCase& each : cases_of(options)) {
     fmt::print(stderr, "lifeline-bench: {}\n", each.name);
     const auto walk = play_codec_walk(each.source, to_settings(*config));
     if (!walk) {
@@ -103,7 +104,7 @@ int run(const Options& options) {
 
 int run_codec_bench(std::span<const char* const> arguments) {
   CommandLine line("What a known square metre costs on the air.", "codec");
-  Options options;
+  CodecOptions options;
   line.add_out(options.out);
   line.add("--data", options.data, "folder that holds carmen/*.log.gz");
   line.add("--only", options.only, "the walks whose name holds this");

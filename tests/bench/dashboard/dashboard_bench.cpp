@@ -30,7 +30,7 @@ using dashboard::Feed;
 using dashboard::Section;
 
 constexpr int kTilesPerSide = 71;  // 5,041 tiles
-constexpr int kHelmets = 50;
+constexpr int kCrowd = 50;
 constexpr int kChangesPerTick = 25;  // each helmet sees half a tile anew, ten times a second
 constexpr Duration kTick = std::chrono::milliseconds(100);
 
@@ -42,7 +42,7 @@ constexpr std::array<std::pair<const char*, const char*>, 5> kMotions{
      {"turn", "closer, turned"},
      {"zoom", "closer, zoomed"}}};
 
-struct Options {
+struct DashboardOptions {
   std::optional<std::filesystem::path> out;
   int seconds = 20;
   int minutes = 10;
@@ -73,9 +73,9 @@ std::string helmet_name(int i) {
 std::string poses_at(double now_s) {
   pb::ServerFrame frame;
   frame.mutable_poses()->set_now_s(now_s);
-  for (int i = 0; i < kHelmets; ++i) {
+  for (int i = 0; i < kCrowd; ++i) {
     auto& pose = *frame.mutable_poses()->add_poses();
-    const double angle = 0.1 * now_s + 2.0 * std::numbers::pi * i / kHelmets;
+    const double angle = 0.1 * now_s + 2.0 * std::numbers::pi * i / kCrowd;
     pose.set_agent_id(helmet_name(i));
     pose.set_x_m(static_cast<float>((20.0 + i) * std::cos(angle)));
     pose.set_y_m(static_cast<float>((20.0 + i) * std::sin(angle)));
@@ -94,7 +94,7 @@ std::string fleet_at(double now_s) {
   fleet.set_leads(true);
   fleet.set_common_map_sha256(std::string(32, 'x'));
   fleet.add_maps("");
-  for (int i = 0; i < kHelmets; ++i) {
+  for (int i = 0; i < kCrowd; ++i) {
     auto& agent = *fleet.add_agents();
     agent.set_agent_id(helmet_name(i));
     agent.set_number(static_cast<std::uint32_t>(i + 1));
@@ -109,11 +109,11 @@ std::string fleet_at(double now_s) {
 
 std::string trails_at(double now_s) {
   pb::ServerFrame frame;
-  for (int i = 0; i < kHelmets; ++i) {
+  for (int i = 0; i < kCrowd; ++i) {
     auto& trail = *frame.mutable_trails()->add_trails();
     trail.set_agent_id(helmet_name(i));
     for (int k = 0; k < 1000; ++k) {
-      const double angle = 0.1 * now_s + 2.0 * std::numbers::pi * i / kHelmets - 0.005 * k;
+      const double angle = 0.1 * now_s + 2.0 * std::numbers::pi * i / kCrowd - 0.005 * k;
       trail.add_points_cm(
           static_cast<int>(k == 0 ? 100 * (20.0 + i) * std::cos(angle) : 40 * std::sin(angle)));
       trail.add_points_cm(
@@ -183,7 +183,7 @@ nlohmann::json measure(const std::string& address, int seconds) {
   return nlohmann::json::parse(output, nullptr, false);
 }
 
-int run(const Options& options) {
+int run(const DashboardOptions& options) {
   Feed feed;
   dashboard::ServerOptions server_options;
   server_options.listen = {"127.0.0.1", 0};
@@ -224,7 +224,7 @@ int run(const Options& options) {
   rows.push_back(
       {"look back: played", 100.0 * back.play_share, "% of a core", Bar{Side::at_most, 20.0}});
   rows.push_back({"look back: memory", back.memory_mb, "MB"});
-  rows.push_back({"helmets shown", figure("helmets"), "", Bar{Side::at_least, kHelmets}});
+  rows.push_back({"helmets shown", figure("helmets"), "", Bar{Side::at_least, kCrowd}});
   return finish({"dashboard", describe_machine(), std::move(rows)}, options.out);
 }
 
@@ -232,7 +232,7 @@ int run(const Options& options) {
 
 int run_dashboard_bench(std::span<const char* const> arguments) {
   CommandLine line("The page under load, in headless Chromium.", "dashboard");
-  Options options;
+  DashboardOptions options;
   line.add_out(options.out);
   line.add("--seconds", options.seconds, "how long frames are counted", 1, 3600);
   line.add("--minutes", options.minutes, "how much is recorded to look back at", 2, 600);

@@ -20,7 +20,7 @@
 namespace lifeline::bench {
 namespace {
 
-struct Options {
+struct FleetOptions {
   std::optional<std::filesystem::path> out;
   std::uint64_t seeds = 100'000;
   std::uint64_t first = 1;
@@ -33,7 +33,7 @@ struct Tally {
   std::vector<double> until_equal_s;
 };
 
-void run_seeds(const Options& options, std::atomic<std::uint64_t>& next, Tally& tally) {
+void run_seeds(const FleetOptions& options, std::atomic<std::uint64_t>& next, Tally& tally) {
   for (std::uint64_t i = next++; i < options.seeds; i = next++) {
     const auto outcome = test::run_seed(options.first + i);
     const std::lock_guard lock(tally.mutex);
@@ -47,7 +47,7 @@ void run_seeds(const Options& options, std::atomic<std::uint64_t>& next, Tally& 
   }
 }
 
-int run(const Options& options) {
+int run(const FleetOptions& options) {
   spdlog::set_level(spdlog::level::off);
   Tally tally;
   std::atomic<std::uint64_t> next = 0;
@@ -71,7 +71,7 @@ int run(const Options& options) {
 
 int run_fleet_bench(std::span<const char* const> arguments) {
   CommandLine line("Helmets and a coordinator on simulated time and network, from seeds.", "fleet");
-  Options options;
+  FleetOptions options;
   line.add_out(options.out);
   line.add("--seeds", options.seeds, "how many", std::uint64_t{1}, std::uint64_t{1'000'000'000});
   line.add("--first", options.first, "the first of them");

@@ -19,7 +19,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-struct Options {
+struct HudOptions {
   std::optional<std::filesystem::path> out;
   double seconds = 60.0;
   bool display = false;
@@ -96,7 +96,7 @@ Result<Cost> measure(hud::Size size, double seconds) {
               100.0 * (cpu_s() - cpu_before_s) / took_s};
 }
 
-int run(const Options& options) {
+int run(const HudOptions& options) {
   spdlog::set_level(spdlog::level::warn);
   if (!options.display) ::setenv("SDL_VIDEODRIVER", "dummy", 1);
   Report report{"hud", describe_machine(), {}};
@@ -118,7 +118,7 @@ int run(const Options& options) {
 }  // namespace
 
 int run_hud_bench(std::span<const char* const> arguments) {
-  Options options;
+  HudOptions options;
   CommandLine line("What the helmet's HUD costs", "hud");
   line.add_out(options.out);
   line.add("--seconds", options.seconds, "How long each size is shown", 1.0, 3600.0);

@@ -20,7 +20,7 @@
 namespace lifeline::bench {
 namespace {
 
-constexpr int kHelmets = 10;
+constexpr int kTeam = 10;
 constexpr double kWalk_s = 120.0;
 
 struct HelmetMap {
@@ -35,9 +35,9 @@ std::vector<HelmetMap> walk() {
   LIFELINE_CHECK(floor);
   sources::Draw draw(45);
   std::vector<HelmetMap> maps;
-  for (int i = 0; i < kHelmets; ++i) {
+  for (int i = 0; i < kTeam; ++i) {
     test::SimulatedView view;
-    view.walker = {.seed = 5, .walker = i, .walkers = kHelmets};
+    view.walker = {.seed = 5, .walker = i, .walkers = kTeam};
     view.until_s = kWalk_s;
     view.T_world_map = {draw.between(-9, 9), draw.between(-9, 9), draw.between(-3, 3)};
     view.noise_seed = static_cast<std::uint64_t>(i) + 1;
@@ -89,7 +89,7 @@ void write_rows(const std::vector<HelmetMap>& maps, const std::string& kind, Rep
   std::size_t pairs = 0;
   double known_m2 = 0.0;
   for (std::size_t a = 0; a < maps.size(); ++a) {
-    known_m2 += features[a].known_m2 / kHelmets;
+    known_m2 += features[a].known_m2 / kTeam;
     for (std::size_t b = a + 1; b < maps.size(); ++b) {
       ++pairs;
       judge(matching::match_maps(features[a], features[b], {}),
@@ -98,7 +98,7 @@ void write_rows(const std::vector<HelmetMap>& maps, const std::string& kind, Rep
   }
   const double pairs_ms = watch.lap_ms();
 
-  const std::string name = fmt::format("{} helmets, {:.0f} m2 each{}", kHelmets, known_m2, kind);
+  const std::string name = fmt::format("{} helmets, {:.0f} m2 each{}", kTeam, known_m2, kind);
   const auto add = [&](const std::string& what, double value, const char* unit,
                        std::optional<Bar> bar = {}) {
     report.rows.push_back({name + ": " + what, value, unit, bar, {}});
@@ -106,7 +106,7 @@ void write_rows(const std::vector<HelmetMap>& maps, const std::string& kind, Rep
   const auto at_most = [](double limit) { return Bar{Bar::Side::at_most, limit}; };
   add(fmt::format("all {} pairs", pairs), pairs_ms / 1000.0, "s", at_most(2.0));
   const auto each = static_cast<double>(pairs);
-  add("features of one map", features_ms / kHelmets, "ms");
+  add("features of one map", features_ms / kTeam, "ms");
   add("one pair, search", outcome.steps_ms.search / each, "ms");
   add("one pair, refinement", outcome.steps_ms.refine / each, "ms");
   add("one pair, figures and bend", outcome.steps_ms.figures / each, "ms");

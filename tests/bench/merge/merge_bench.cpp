@@ -21,7 +21,7 @@
 namespace lifeline::bench {
 namespace {
 
-struct Options {
+struct MergeOptions {
   std::optional<std::filesystem::path> out;
   std::filesystem::path pairs = "../shared/data/mapmerge/pairs";
   std::optional<std::size_t> negatives;
@@ -71,7 +71,7 @@ void write_crossed(const std::vector<MergePair>& pairs, Report& report) {
   for (const std::string& wrong : outcome.accepted) fmt::print("wrong: {}\n", wrong);
 }
 
-int run_pairs(const Options& options) {
+int run_pairs(const MergeOptions& options) {
   const bool recorded = std::filesystem::exists(options.pairs / "index.csv");
   if (!recorded) tell(options.pairs.string() + " is not there: pairs of simulated offices");
   tell("loading the maps");
@@ -101,7 +101,7 @@ int run_pairs(const Options& options) {
   return finish(report, options.out);
 }
 
-int run_hard_negatives(Options options) {
+int run_hard_negatives(MergeOptions options) {
   options.choice.pairs = *options.negatives;
   const NegativesOutcome outcome =
       run_negatives(options.choice, {}, [](std::size_t pairs, std::size_t wrong) {
@@ -130,7 +130,7 @@ int run_hard_negatives(Options options) {
 
 int run_merge_bench(std::span<const char* const> arguments) {
   CommandLine line("How often two maps are merged rightly, wrongly or not at all.", "merge");
-  Options options;
+  MergeOptions options;
   line.add_out(options.out);
   line.add("--pairs", options.pairs, "folder of pairs with an index.csv");
   line.add("--plans", options.choice.plans, "folder of HouseExpo plans");

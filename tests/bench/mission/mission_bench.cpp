@@ -1,7 +1,6 @@
 #include "tests/bench/mission/mission_bench.hpp"
 
 #include <cstdio>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -18,23 +17,22 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr double kMissed = std::numeric_limits<double>::quiet_NaN();
-constexpr int kHelmets = 4;
+constexpr int kSmallTeam = 4;
 // On one machine there is no radio to spare.
 constexpr std::uint32_t kAmple_bit_s = 50'000'000;
 
-struct Options {
+struct MissionOptions {
   std::optional<std::filesystem::path> out;
   std::string only;
   double walk_s = 90.0;
   int many = 32;
 };
 
-struct Bench : FleetBench {
-  Options options;
+struct MissionBench : FleetBench {
+  MissionOptions options;
 };
 
-Result<RadioFleet> begin(const Bench& bench, const std::string& name, int helmets,
+Result<RadioFleet> begin(const MissionBench& bench, const std::string& name, int helmets,
                          const std::string& source) {
   RadioFleet::Options options = bench.fleet;
   auto domain = demo::pick_free_domain(static_cast<std::uint64_t>(getpid()), helmets + 2);
@@ -48,15 +46,15 @@ Result<RadioFleet> begin(const Bench& bench, const std::string& name, int helmet
   return RadioFleet::start_here(options);
 }
 
-Result<void> scan_to_map(Bench& bench) {
+Result<void> scan_to_map(MissionBench& bench) {
   bench.fleet.journals = true;
-  auto fleet = begin(bench, "delay", kHelmets, "beams=400");
+  auto fleet = begin(bench, "delay", kSmallTeam, "beams=400");
   bench.fleet.journals = false;
   if (!fleet) return forward_error(fleet);
   (void)fleet->until([](const auto& f) { return f.all_finished() && f.all_equal(); },
                      from_seconds(bench.options.walk_s) + seconds(90));
   std::map<std::string, std::filesystem::path> journals;
-  for (int helmet = 0; helmet < kHelmets; ++helmet)
+  for (int helmet = 0; helmet < kSmallTeam; ++helmet)
     journals.emplace(RadioFleet::name_of(helmet), fleet->journal_of(helmet));
   fleet->end_helmets();
   const auto delays = map_delays(journals, 3.0);
@@ -76,7 +74,7 @@ Result<void> scan_to_map(Bench& bench) {
   return {};
 }
 
-Result<void> many_helmets(Bench& bench) {
+Result<void> many_helmets(MissionBench& bench) {
   const int many = bench.options.many;
   const std::string name = fmt::format("{} helmets", many);
   auto fleet = begin(bench, "many", many, "beams=180&hz=2&width=40&depth=30");
@@ -84,7 +82,8 @@ Result<void> many_helmets(Bench& bench) {
   const auto met = fleet->until([](const auto& f) { return f.all_have_met(); }, seconds(180));
   bench.row(name + ": every pair matched", met.value_or(kMissed), "s", 60.0);
   const auto fresh = fleet->until([](const auto& f) { return f.all_hear_all(); }, seconds(180));
-  bench.row(name + ": from then until nobody is late for anybody", fresh.value_or(kMissed), "s", {});
+  bench.row(name + ": from then until nobody is late for anybody", fresh.value_or(kMissed), "s",
+            {});
   const auto walked = fleet->until([](const auto& f) { return f.all_finished(); },
                                    from_seconds(bench.options.walk_s) + seconds(180));
   const auto equal = fleet->until([](const auto& f) { return f.all_equal(); }, seconds(240));
@@ -99,13 +98,13 @@ Result<void> many_helmets(Bench& bench) {
   return {};
 }
 
-int run(const Options& options) {
+int run(const MissionOptions& options) {
   auto prepared = prepare_fleet_bench("mission", "loopback.xml");
   if (!prepared) {
     fmt::print(stderr, "lifeline bench: {}\n", prepared.error().text);
     return 1;
   }
-  Bench bench{*std::move(prepared), options};
+  MissionBench bench{*std::move(prepared), options};
   return run_cases(bench,
                    {{"delay", [&] { return scan_to_map(bench); }},
                     {"many", [&] { return many_helmets(bench); }}},
@@ -117,7 +116,7 @@ int run(const Options& options) {
 int run_mission_bench(std::span<const char* const> arguments) {
   CommandLine line("A team on this machine: delay from scan to common map, and a large one.",
                    "mission");
-  Options options;
+  MissionOptions options;
   line.add_out(options.out);
   line.add("--only", options.only, "cases whose name holds this");
   line.add("--walk", options.walk_s, "seconds that each walks", 10.0, 600.0);

@@ -19,7 +19,7 @@
 namespace lifeline::bench {
 namespace {
 
-struct Options {
+struct PaperOptions {
   std::optional<std::filesystem::path> out;
   std::optional<std::filesystem::path> pictures;
   std::uint64_t seeds = 20;
@@ -28,7 +28,7 @@ struct Options {
   int experiment = 0;  ///< 0: all
 };
 
-Report run(const Options& options) {
+Report run(const PaperOptions& options) {
   DoorsStudy doors;
   TimingStudy timing(options.duration_s);
   UpdateStudy update;
@@ -58,7 +58,7 @@ Report run(const Options& options) {
 
 int run_paper_bench(std::span<const char* const> arguments) {
   CommandLine line("The paper's four experiments in simulated buildings.", "paper");
-  Options options;
+  PaperOptions options;
   line.add_out(options.out);
   line.add("--pictures", options.pictures, "folder for pictures of the first seed");
   line.add("--seeds", options.seeds, "buildings of each kind, from seed 1", std::uint64_t{1},

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,9 @@
 #include "tests/bench/report.hpp"
 
 namespace lifeline::bench {
+
+/// Figure of what was not reached.
+inline constexpr double kMissed = std::numeric_limits<double>::quiet_NaN();
 
 /// What the benchmarks of whole fleets share.
 struct FleetBench {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,9 +20,7 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr double kMissed = std::numeric_limits<double>::quiet_NaN();
-
-struct Options {
+struct RadioOptions {
   std::optional<std::filesystem::path> out;
   std::optional<std::filesystem::path> qos;
   std::string only;
@@ -34,19 +31,19 @@ struct Options {
 };
 
 /// What all cases share.
-struct Bench : FleetBench {
-  Options options;
+struct RadioBench : FleetBench {
+  RadioOptions options;
   double lossless_octets = kMissed;  ///< of all helmets, from start to equal maps
 };
 
 /// A fresh net and fleet for one case; hosts are the coordinator's, the helmets' and the watch's.
-struct Case {
+struct RadioCase {
   std::unique_ptr<RadioNet> net;  ///< stays where it is: the fleet starts programs on it later, too
   std::unique_ptr<RadioTraffic> traffic;  ///< of the helmets, where it is asked for
   std::unique_ptr<RadioFleet> fleet;
 };
 
-std::set<int> helmet_hosts(const Bench& bench) {
+std::set<int> helmet_hosts(const RadioBench& bench) {
   std::set<int> hosts;
   for (int helmet = 0; helmet < bench.options.helmets; ++helmet)
     hosts.insert(RadioFleet::host_of(helmet));
@@ -54,11 +51,11 @@ std::set<int> helmet_hosts(const Bench& bench) {
 }
 
 /// `heard`: whose traffic is told apart, where that is asked for.
-Result<Case> begin(const Bench& bench, const std::string& name, double loss,
-                   const std::set<int>& heard) {
+Result<RadioCase> begin(const RadioBench& bench, const std::string& name, double loss,
+                        const std::set<int>& heard) {
   auto net = RadioNet::make(bench.options.helmets + 3);
   if (!net) return forward_error(net);
-  Case begun{std::make_unique<RadioNet>(*std::move(net)), nullptr, nullptr};
+  RadioCase begun{std::make_unique<RadioNet>(*std::move(net)), nullptr, nullptr};
   if (auto set = begun.net->set_loss(loss); !set) return forward_error(set);
   if (bench.options.kinds) {
     auto traffic = RadioTraffic::listen(*begun.net, heard);
@@ -73,17 +70,17 @@ Result<Case> begin(const Bench& bench, const std::string& name, double loss,
   return begun;
 }
 
-Result<Case> begin(const Bench& bench, const std::string& name, double loss) {
+Result<RadioCase> begin(const RadioBench& bench, const std::string& name, double loss) {
   return begin(bench, name, loss, helmet_hosts(bench));
 }
 
-double octets(const Bench& bench, const RadioNet& net) {
+double octets(const RadioBench& bench, const RadioNet& net) {
   double sum = 0.0;
   for (const int host : helmet_hosts(bench)) sum += static_cast<double>(net.octets_sent(host));
   return sum;
 }
 
-void tell_kinds(Bench& bench, const std::string& name, Case& of) {
+void tell_kinds(RadioBench& bench, const std::string& name, RadioCase& of) {
   if (of.traffic == nullptr) return;
   for (const auto& [kind, octets] : of.traffic->stop())
     bench.row(fmt::format("{}: {}", name, kind), 1e-3 * static_cast<double>(octets), "kB", {});
@@ -100,7 +97,7 @@ double worst_pose_age_s(RadioFleet& fleet) {
   return worst;
 }
 
-Result<void> walk_with_loss(Bench& bench, double loss, double equal_within_s, double times) {
+Result<void> walk_with_loss(RadioBench& bench, double loss, double equal_within_s, double times) {
   const std::string name = fmt::format("loss {:.0f} %", 100.0 * loss);
   auto begun = begin(bench, name, loss);
   if (!begun) return forward_error(begun);
@@ -127,7 +124,7 @@ Result<void> walk_with_loss(Bench& bench, double loss, double equal_within_s, do
   return {};
 }
 
-Result<void> walk_apart(Bench& bench) {
+Result<void> walk_apart(RadioBench& bench) {
   auto begun = begin(bench, "parted", 0.0);
   if (!begun) return forward_error(begun);
   std::set<int> far;
@@ -147,7 +144,7 @@ Result<void> walk_apart(Bench& bench) {
   return {};
 }
 
-Result<void> off_the_air(Bench& bench) {
+Result<void> off_the_air(RadioBench& bench) {
   auto begun = begin(bench, "off the air", 0.0);
   if (!begun) return forward_error(begun);
   const int host = RadioFleet::host_of(0);
@@ -168,7 +165,7 @@ Result<void> off_the_air(Bench& bench) {
   return {};
 }
 
-Result<void> narrow_link(Bench& bench) {
+Result<void> narrow_link(RadioBench& bench) {
   auto begun = begin(bench, "narrow link", 0.0, {RadioFleet::host_of(0)});
   if (!begun) return forward_error(begun);
   if (auto set = begun->net->set_rate(RadioFleet::host_of(0), 250); !set) return set;
@@ -187,9 +184,9 @@ Result<void> narrow_link(Bench& bench) {
 
 /// Helmets map a large building as fast as they can; then one more machine comes, over links of 5
 /// Mbit/s, and needs every tile.
-Result<void> large_map(Bench& bench, double loss, double within_s) {
+Result<void> large_map(RadioBench& bench, double loss, double within_s) {
   const std::string name = fmt::format("late joiner, large map, loss {:.0f} %", 100.0 * loss);
-  Bench large{{bench.fleet, {}}, bench.options};
+  RadioBench large{{bench.fleet, {}}, bench.options};
   large.fleet.walk_s = 300.0;
   large.fleet.source_options = "beams=400&rate=max&width=80&depth=60";
   auto begun = begin(large, name, 0.0);
@@ -212,7 +209,7 @@ Result<void> large_map(Bench& bench, double loss, double within_s) {
   return {};
 }
 
-Result<void> late_joiner(Bench& bench) {
+Result<void> late_joiner(RadioBench& bench) {
   auto begun = begin(bench, "late joiner", 0.0);
   if (!begun) return forward_error(begun);
   RadioFleet& fleet = *begun->fleet;
@@ -232,13 +229,13 @@ Result<void> late_joiner(Bench& bench) {
   return {};
 }
 
-int run(const Options& options) {
+int run(const RadioOptions& options) {
   auto prepared = prepare_fleet_bench("radio", "wifi.xml");
   if (!prepared) {
     fmt::print(stderr, "lifeline bench: {}\n", prepared.error().text);
     return 1;
   }
-  Bench bench{*std::move(prepared), options};
+  RadioBench bench{*std::move(prepared), options};
   if (options.qos) bench.fleet.qos = *options.qos;
   bench.fleet.helmets = options.helmets;
   bench.fleet.walk_s = options.walk_s;
@@ -261,7 +258,7 @@ int run(const Options& options) {
 
 int run_radio_bench(std::span<const char* const> arguments) {
   CommandLine line("Sharing over a radio that loses and parts, with the real programs.", "radio");
-  Options options;
+  RadioOptions options;
   line.add_out(options.out);
   line.add("--only", options.only, "cases whose name holds this");
   line.add("--helmets", options.helmets, "how many", 2, 16);

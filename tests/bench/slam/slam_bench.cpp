@@ -22,7 +22,7 @@ namespace {
 
 using std::filesystem::path;
 
-struct Options {
+struct SlamOptions {
   std::optional<path> out;
   std::optional<path> pictures;
   path data = "../shared/data";
@@ -63,7 +63,8 @@ class ScratchFolder {
 
 class SlamBench {
  public:
-  SlamBench(Options options, path agent) : options_(std::move(options)), agent_(std::move(agent)) {
+  SlamBench(SlamOptions options, path agent)
+      : options_(std::move(options)), agent_(std::move(agent)) {
     report_.bench = "slam";
     report_.machine = describe_machine();
   }
@@ -169,14 +170,14 @@ class SlamBench {
     for (ReportRow& row : rows) report_.rows.push_back(std::move(row));
   }
 
-  Options options_;
+  SlamOptions options_;
   path agent_;
   ScratchFolder scratch_;
   Report report_;
 };
 
 /// The exit status, where the arguments say to stop here.
-std::optional<int> parse(std::span<const char* const> arguments, Options& options) {
+std::optional<int> parse(std::span<const char* const> arguments, SlamOptions& options) {
   CommandLine line("One helmet's accuracy, speed and memory on recordings and simulated walks",
                    "slam");
   line.add_out(options.out);
@@ -190,7 +191,7 @@ std::optional<int> parse(std::span<const char* const> arguments, Options& option
 }  // namespace
 
 int run_slam_bench(std::span<const char* const> arguments) {
-  Options options;
+  SlamOptions options;
   if (const auto status = parse(arguments, options)) return *status;
   const path agent = std::filesystem::canonical("/proc/self/exe").parent_path() / "lifeline-agent";
   if (!std::filesystem::exists(agent)) {
