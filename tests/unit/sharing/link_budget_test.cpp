@@ -55,6 +55,16 @@ TEST_F(LinkBudgetTest, RepetitionsThatNobodyAnnouncedLeaveTheTilesATrickle) {
   EXPECT_NEAR(static_cast<double>(sent), 100.0 * 1'500, 15'000);
 }
 
+TEST_F(LinkBudgetTest, AsksOnceASecondWhoListens) {
+  int asked = 0;
+  for (int i = 0; i < 1'000; ++i) {  // 10 s
+    now_ += milliseconds(10);
+    link_.measure(now_, [&] { return Audience{static_cast<std::size_t>(++asked)}; });
+  }
+  EXPECT_EQ(asked, 10);
+  EXPECT_EQ(link_.receivers(), 10U);
+}
+
 TEST_F(LinkBudgetTest, UrgentTrafficHasAReserve) {
   pass({});
   link_.expect(5'200);
