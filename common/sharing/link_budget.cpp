@@ -44,7 +44,7 @@ void LinkBudget::measure(SteadyTime now, const std::function<Audience()>& audien
   if (pace_.is_due(now)) {
     const Audience listens = audience();
     receivers_ = std::max<std::size_t>(listens.receivers, 1);
-    pace_.look(now, counted, listens.round_trip);
+    pace_.look(now, counted, listens);
   }
   const double rate_bit_s = pace_.rate_bit_s();
   const double gained_bits =

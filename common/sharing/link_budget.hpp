@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 
 #include "common/base/ids.hpp"
 #include "common/base/time.hpp"
@@ -15,12 +14,6 @@ namespace lifeline::sharing {
 /// What a sample is for, most urgent first. Status, directives and alerts are not asked about: they
 /// always go.
 enum class Traffic { pose, tile, scan };
-
-/// Who listens.
-struct Audience {
-  std::size_t receivers = 0;
-  std::optional<Duration> round_trip{};  ///< Roster::round_trip
-};
 
 /// Whom `self` speaks to.
 [[nodiscard]] Audience audience(const Roster& roster, const AgentId& self, const Clock& clock);

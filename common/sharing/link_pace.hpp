@@ -1,11 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include "common/base/time.hpp"
 
 namespace lifeline::sharing {
+
+/// Who listens.
+struct Audience {
+  std::size_t receivers = 0;
+  /// The least with any receiver (Roster::round_trip), nullopt where none is known.
+  std::optional<Duration> round_trip{};
+};
 
 /// What a link passes, found by how long our samples take to others and their answers back
 /// (docs/decisions/0119): less than is configured where they queue up, and more again, gently,
@@ -17,16 +25,15 @@ class LinkPace {
 
   /// Whether it is time to look() again: once a second.
   [[nodiscard]] bool is_due(SteadyTime now) const;
-  /// `octets_sent`: everything that has left so far. `round_trip`: the least with any
-  /// receiver (Roster::round_trip), nullopt where none is known.
-  void look(SteadyTime now, std::uint64_t octets_sent, std::optional<Duration> round_trip);
+  /// `octets_sent`: everything that has left so far.
+  void look(SteadyTime now, std::uint64_t octets_sent, const Audience& audience);
 
   [[nodiscard]] double rate_bit_s() const { return rate_bit_s_; }
   /// Whether our samples wait in the link's queue, as of the last look.
   [[nodiscard]] bool is_late() const { return is_late_; }
 
  private:
-  void slow_down(SteadyTime now, double sent_bit_s, Duration round_trip);
+  void slow_down(SteadyTime now, double sent_bit_s, const Audience& audience);
   void speed_up();
 
   double most_bit_s_, rate_bit_s_;

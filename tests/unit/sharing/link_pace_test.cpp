@@ -32,7 +32,7 @@ class LinkPaceTest : public testing::Test {
       if (on_their_way_.size() > static_cast<std::size_t>(milliseconds(1500) / kStep))
         on_their_way_.pop_front();
       if (!pace_.is_due(now_)) continue;
-      pace_.look(now_, static_cast<std::uint64_t>(passed_bits_ / 8.0), on_their_way_.front());
+      pace_.look(now_, static_cast<std::uint64_t>(passed_bits_ / 8.0), {8, on_their_way_.front()});
     }
   }
   void forget() {
@@ -80,22 +80,25 @@ TEST_F(LinkPaceTest, LeavesALinkThatPassesAllAsItIs) {
 }
 
 TEST_F(LinkPaceTest, AMachineThatWasBusyForAMomentSlowsNothing) {
-  pace_.look(now_, 0, milliseconds(20));
-  pace_.look(now_ += seconds(1), 10'000, milliseconds(900));
-  pace_.look(now_ += seconds(1), 20'000, milliseconds(20));
+  pace_.look(now_, 0, {8, milliseconds(20)});
+  pace_.look(now_ += seconds(1), 10'000, {8, milliseconds(900)});
+  pace_.look(now_ += seconds(1), 20'000, {8, milliseconds(20)});
   EXPECT_EQ(pace_.rate_bit_s(), 256'000);
 }
 
 TEST_F(LinkPaceTest, WhereNobodyTellsADelayNothingIsSlowedDown) {
-  for (int i = 0; i < 60; ++i) pace_.look(now_ += seconds(1), 0, std::nullopt);
+  for (int i = 0; i < 60; ++i) pace_.look(now_ += seconds(1), 0, {8, std::nullopt});
   EXPECT_EQ(pace_.rate_bit_s(), 256'000);
 }
 
 TEST_F(LinkPaceTest, WhoSendsLittleIsNotStoppedByALinkThatOthersFill) {
-  for (int i = 0; i < 600; ++i) pace_.look(now_ += seconds(1), 0, seconds(5));
+  for (int i = 0; i < 600; ++i) pace_.look(now_ += seconds(1), 0, {8, seconds(5)});
   EXPECT_EQ(pace_.rate_bit_s(), 96'000);
+  pace_ = LinkPace(2'000'000);  // many receivers
+  for (int i = 0; i < 600; ++i) pace_.look(now_ += seconds(1), 0, {32, seconds(5)});
+  EXPECT_EQ(pace_.rate_bit_s(), 384'000);
   pace_ = LinkPace(20'000);  // configured for less
-  for (int i = 0; i < 600; ++i) pace_.look(now_ += seconds(1), 0, seconds(5));
+  for (int i = 0; i < 600; ++i) pace_.look(now_ += seconds(1), 0, {8, seconds(5)});
   EXPECT_EQ(pace_.rate_bit_s(), 20'000);
 }
 
