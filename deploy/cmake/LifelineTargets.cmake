@@ -45,12 +45,12 @@ function(lifeline_precompile_headers name)
   add_library(${name} OBJECT "${source}")
   target_compile_options(${name} PRIVATE ${arg_FLAGS} ${LIFELINE_PRECOMPILED_OPTIONS})
   lifeline_warnings(${name})  # -Wpedantic defines a macro less
-  target_link_libraries(${name} PRIVATE Eigen3::Eigen spdlog::spdlog tl::expected Threads::Threads ${arg_LINK})
+  target_link_libraries(${name} PRIVATE Eigen3::Eigen nlohmann_json::nlohmann_json spdlog::spdlog tl::expected Threads::Threads ${arg_LINK})
   target_precompile_headers(${name} PRIVATE
     <algorithm> <array> <atomic> <charconv> <chrono> <cmath> <cstdint> <deque> <filesystem> <fstream> <functional> <limits> <map>
     <memory> <mutex> <numbers> <numeric> <optional> <random> <set> <span> <sstream> <stop_token> <string> <string_view> <thread>
-    <unordered_map> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <fmt/ranges.h> <spdlog/spdlog.h>
-    <tl/expected.hpp> ${arg_HEADERS})
+    <unordered_map> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <fmt/ranges.h> <nlohmann/json.hpp>
+    <spdlog/spdlog.h> <tl/expected.hpp> ${arg_HEADERS})
 endfunction()
 
 if(LIFELINE_BATCHES)
