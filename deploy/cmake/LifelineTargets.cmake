@@ -29,7 +29,7 @@ function(lifeline_warnings target)
 endfunction()
 
 # Sources of a target in batches: headers are parsed, and what they inline is compiled, once a batch. A source that forgets
-# an include shows only where it is compiled alone: `release` does so.
+# an include shows only where it is compiled alone: `single` does so.
 function(lifeline_batch target)
   if(LIFELINE_BATCHES)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
@@ -65,8 +65,10 @@ if(LIFELINE_BATCHES)
   set(LIFELINE_TEST_PRECOMPILED lifeline_test_precompiled)
   lifeline_precompile_headers(${LIFELINE_PRECOMPILED})
   lifeline_precompile_headers(${LIFELINE_COMPUTING_PRECOMPILED} FLAGS ${LIFELINE_COMPUTING_FLAGS})
-  lifeline_precompile_headers(${LIFELINE_TEST_PRECOMPILED} FLAGS ${LIFELINE_TEST_FLAGS}
-    LINK GTest::gmock HEADERS <gmock/gmock.h> <gtest/gtest.h>)
+  if(LIFELINE_TESTS)
+    lifeline_precompile_headers(${LIFELINE_TEST_PRECOMPILED} FLAGS ${LIFELINE_TEST_FLAGS}
+      LINK GTest::gmock HEADERS <gmock/gmock.h> <gtest/gtest.h>)
+  endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Two compilers fit in memory with all that they would clear away between times: a tenth of their time.
     add_compile_options(--param ggc-min-heapsize=1500000)
