@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "common/bag/bag_file.hpp"
 #include "common/dds/topics.hpp"
 
@@ -19,7 +21,7 @@ template <typename Message>
   std::string type(row.type);
   for (std::size_t at = type.find("::"); at != std::string::npos; at = type.find("::", at))
     type.replace(at, 2, "/");
-  return {"/" + std::string(row.name), type};
+  return {fmt::format("/{}", row.name), type};
 }
 
 }  // namespace lifeline
